@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_compare_reference_h
+#define tetradapt_compare_reference_h
+
+#include "tetradapt/core/log.h"
+#include "tetradapt/mechanics/material_map.h"
+#include "tetradapt/mesh/nodal_field.h"
+#include "tetradapt/scene/scene.h"
+
+#include <mpi.h>
+
+namespace tetradapt::compare
+{
+  /** A fine solution, and how wrong it is itself. Every rank holds all of it. */
+  struct Reference
+  {
+    std::shared_ptr<mesh::NodalField> displacement;
+    double                            energy = 0.; ///< a(u_ref,u_ref)
+    double estimated_error = 0.; ///< of the reference, energy norm, absolute, recovery estimator
+    bool   from_cache      = false;
+    std::string description;  ///< for the log: where it came from, its size
+    double      seconds = 0.; ///< what it took to obtain
+  };
+
+  /**
+   * Solves, or reads from the cache, or reads from an earlier run's .vtu, the
+   * scene's reference. Collective.
+   *
+   * @param initial_mesh the scene's initial mesh with selections made; the route
+   *        "refine" refines it.
+   */
+  Reference make_reference(const scene::Scene                  &scene,
+                           const mechanics::MaterialMap        &materials,
+                           std::shared_ptr<const mesh::TetMesh> initial_mesh,
+                           MPI_Comm                             communicator,
+                           const core::Log                     &log);
+} // namespace tetradapt::compare
+
+#endif

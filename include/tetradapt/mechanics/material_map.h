@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_mechanics_material_map_h
+#define tetradapt_mechanics_material_map_h
+
+#include "tetradapt/core/expression.h"
+#include "tetradapt/mechanics/constitutive_law.h"
+#include "tetradapt/mesh/tet_mesh.h"
+#include "tetradapt/scene/scene.h"
+
+#include <map>
+
+namespace tetradapt::mechanics
+{
+  /**
+   * The material of every region, and the thermal strain that the scene's
+   * temperature loads cause there. Made once a scene; region ids survive
+   * remeshing, so it serves every mesh of the run and the reference alike.
+   */
+  class MaterialMap
+  {
+  public:
+    /** @throws InputError if a region of @p mesh has no material, two claim it,
+     *          or a material or temperature names a region that does not exist. */
+    MaterialMap(const scene::Scene &scene, const mesh::TetMesh &mesh);
+
+    /** The law of region @p region. */
+    const ConstitutiveLaw &law(int region) const;
+
+    const scene::MaterialParameters &parameters(int region) const;
+
+    bool has_thermal_strain() const;
+
+    /** Thermal strain alpha T(x) I at @p point of @p region; zero without one. */
+    SymmetricTensor<2, 3> thermal_strain(int region, const dealii::Point<3> &point) const;
+
+  private:
+    struct Entry
+    {
+      const scene::MaterialParameters *parameters;
+      std::shared_ptr<ConstitutiveLaw> law;
+      std::vector<core::Expression>    temperatures;
+    };
+    const Entry &entry(int region) const;
+
+    std::vector<scene::MaterialParameters> materials;
+    std::map<int, Entry>                   entries;
+    bool                                   thermal = false;
+  };
+} // namespace tetradapt::mechanics
+
+#endif

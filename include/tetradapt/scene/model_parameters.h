@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_scene_model_parameters_h
+#define tetradapt_scene_model_parameters_h
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace dealii
+{
+  class ParameterHandler;
+}
+
+namespace tetradapt::scene
+{
+  /**
+   * Which boundary faces (or, for loads on the body, which regions) something
+   * acts on. A face is selected if its boundary id or its named group is listed
+   * (or if neither list is given) and, if an expression is given, the expression
+   * holds at its three vertices and its centroid.
+   */
+  struct Selector
+  {
+    std::vector<int>         ids;
+    std::vector<std::string> groups;
+    std::string              where; ///< expression in x, y, z; empty: everywhere
+
+    bool empty() const
+    {
+      return ids.empty() && groups.empty() && where.empty();
+    }
+  };
+
+  /** A material and the regions that it fills. */
+  struct MaterialParameters
+  {
+    std::string              name;
+    std::vector<int>         regions;       ///< region ids; both lists empty: everywhere else
+    std::vector<std::string> region_groups; ///< names of regions
+    std::string              law               = "linear elastic"; ///< name in the factory of laws
+    double                   young_modulus     = 1.;               ///< E, pressure unit
+    double                   poisson_ratio     = 0.3;              ///< nu
+    double                   density           = 0.;               ///< mass per volume
+    double                   thermal_expansion = 0.;               ///< strain per degree
+
+    void declare(dealii::ParameterHandler &prm) const;
+    void parse(dealii::ParameterHandler &prm);
+    void check() const;
+  };
+
+  /** Prescribed displacement components on a part of the boundary. */
+  struct SupportParameters
+  {
+    std::string                name;
+    Selector                   selector;
+    std::array<bool, 3>        components{{true, true, true}};
+    std::array<std::string, 3> displacement{{"0", "0", "0"}}; ///< in x, y, z, t
+
+    void declare(dealii::ParameterHandler &prm) const;
+    void parse(dealii::ParameterHandler &prm);
+    void check() const;
+  };
+
+  enum class LoadType
+  {
+    traction,   ///< force per area, on faces
+    pressure,   ///< force per area against the outer normal, on faces
+    body_force, ///< force per volume, on regions
+    gravity,    ///< acceleration times the material's density, on regions
+    temperature ///< temperature change: thermal strain alpha T I, on regions
+  };
+
+  /** A load. */
+  struct LoadParameters
+  {
+    std::string name;
+    LoadType    type = LoadType::traction;
+    /** Faces for tractions and pressures, regions (ids, groups) for the others. */
+    Selector selector;
+    /** Expressions in x, y, z, t: three for vectors, one (the first) for
+     * pressure and temperature. */
+    std::array<std::string, 3> value{{"0", "0", "0"}};
+
+    void declare(dealii::ParameterHandler &prm) const;
+    void parse(dealii::ParameterHandler &prm);
+    void check() const;
+  };
+
+  /** What is known of the true solution; any of these may be empty. */
+  struct TruthParameters
+  {
+    /** Exact displacement as expressions in x, y, z. */
+    std::array<std::string, 3> displacement;
+    /** Its gradient du_i/dx_j, row by row; empty: by differences of order six. */
+    std::array<std::string, 9> gradient;
+    /** Known value of a(u,u), twice the strain energy; 0: unknown. It equals the
+     * work F(u) of the loads on the displacement they cause. */
+    double energy = 0.;
+
+    bool has_displacement() const
+    {
+      return !displacement[0].empty();
+    }
+    bool has_gradient() const
+    {
+      return !gradient[0].empty();
+    }
+    bool has_energy() const
+    {
+      return energy != 0.;
+    }
+    void declare(dealii::ParameterHandler &prm) const;
+    void parse(dealii::ParameterHandler &prm);
+    void check() const;
+  };
+} // namespace tetradapt::scene
+
+#endif

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_scene_study_parameters_h
+#define tetradapt_scene_study_parameters_h
+
+#include "tetradapt/scene/mesh_parameters.h"
+
+#include <string>
+
+namespace tetradapt::scene
+{
+  struct SolverParameters
+  {
+    enum class Type
+    {
+      automatic, ///< direct below direct_limit unknowns, else cg
+      cg,
+      direct
+    };
+    Type         type           = Type::automatic;
+    double       tolerance      = 1e-8; ///< of the residual, relative to the load
+    unsigned int max_iterations = 2000;
+    unsigned int direct_limit   = 2000; ///< unknowns
+
+    void declare(dealii::ParameterHandler &prm) const;
+    void parse(dealii::ParameterHandler &prm);
+    void check() const;
+  };
+
+  /** The fine solution that others are compared with. */
+  struct ReferenceParameters
+  {
+    enum class Type
+    {
+      none,
+      fine_mesh, ///< solved by this program on a fine mesh, and cached
+      run        ///< a .vtu written by an earlier run
+    };
+    Type         type   = Type::none;
+    unsigned int degree = 2;
+    /** fine_mesh: how the mesh is made: refined by TetGen from the scene's
+     * initial mesh with the bounds below, or bricks, or read from a file. */
+    enum class MeshRoute
+    {
+      refine,
+      bricks,
+      file
+    };
+    MeshRoute                   route = MeshRoute::refine;
+    std::array<unsigned int, 3> cells{{1, 1, 1}};  ///< bricks
+    double                      volume_bound = 0.; ///< refine
+    std::string                 size;              ///< refine: edge length in x, y, z
+    double                      radius_edge_ratio = 1.414;
+    double                      dihedral_angle    = 10.;
+    std::string                 file; ///< file: volume mesh; run: .vtu of a run
+    bool                        cache = true;
+    std::string cache_directory; ///< default: output/cache below the working directory
+
+    void declare(dealii::ParameterHandler &prm) const;
+    void parse(dealii::ParameterHandler &prm);
+    void check() const;
+  };
+
+  struct AdaptivityParameters
+  {
+    enum class Strategy
+    {
+      none,      ///< one mesh
+      mesh_list, ///< one cycle for each mesh that Mesh lists
+      uniform,   ///< every tetrahedron cut into 8, each cycle
+      adaptive
+    };
+    /** Which indicator drives the refinement. */
+    enum class Driver
+    {
+      energy, ///< energy norm of the difference to the reference
+      ren,    ///< the 2015 report's relative nodal error, summed over nodes
+      exact   ///< energy norm of the true error (needs an exact displacement)
+    };
+    enum class Marking
+    {
+      maximum,        ///< eta_K >= lambda max eta
+      fixed_fraction, ///< the given fraction of the cells with the largest eta_K
+      doerfler,       ///< smallest set with theta of the squared error
+      optimal_size    ///< no marking: a size field that equidistributes the error
+    };
+    /** How sizes are given to TetGen. */
+    enum class Route
+    {
+      node_sizes,        ///< an edge length at every node (-m)
+      volume_constraints ///< a bound on the volume of every tetrahedron (-a)
+    };
+    Strategy strategy = Strategy::none;
+    Driver   driver   = Driver::energy;
+    Marking  marking  = Marking::optimal_size;
+    Route    route    = Route::node_sizes;
+    double   lambda   = 0.8; ///< maximum rule
+    double min_new = 0.05;  ///< maximum rule: lambda is lowered until at least this fraction of the
+                            ///< cells is marked
+    double fraction  = 0.2; ///< fixed fraction
+    double theta     = 0.5; ///< doerfler
+    double reduction = 0.5; ///< new edge length over old one of a marked cell
+    double growth    = 6.;  ///< optimal size: tetrahedra of the next mesh over this one's
+    double min_ratio = 1. / 3.; ///< clamp of new over old size in one cycle
+    double max_ratio = 2.;
+    double min_size  = 0.;  ///< smallest edge length; 0: none
+    double max_size  = 0.;  ///< largest edge length; 0: none
+    double gradation = 0.3; ///< h(x) <= h(y) + g |x-y|
+    /** Stop when the relative energy error (estimated, or true where known) is
+     * below; 0: no such stop. */
+    double        tolerance     = 0.;
+    double        ren_tolerance = 0.; ///< the same for the mean REN
+    unsigned int  max_cycles    = 1;
+    unsigned long max_tets      = 0; ///< 0: no limit
+    unsigned long max_dofs      = 0;
+    double        max_seconds   = 0.;
+
+    void declare(dealii::ParameterHandler &prm) const;
+    void parse(dealii::ParameterHandler &prm);
+    void check() const;
+  };
+
+  struct OutputParameters
+  {
+    std::string directory;     ///< empty: output/<scene's name>
+    bool        tables = true; ///< convergence.csv, convergence.txt
+    bool        vtu    = true; ///< cycle_NNN.vtu and the .pvd
+    bool        stress = true; ///< stress and von Mises in the .vtu
+
+    void declare(dealii::ParameterHandler &prm) const;
+    void parse(dealii::ParameterHandler &prm);
+    void check() const;
+  };
+} // namespace tetradapt::scene
+
+#endif
