@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/core/expression.h"
+
+#include "tetradapt/core/exceptions.h"
+
+#include <muParser.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace tetradapt::core
+{
+  namespace
+  {
+    double choose(double condition, double yes, double no)
+    {
+      return condition != 0. ? yes : no;
+    }
+    double negate(double value)
+    {
+      return value == 0. ? 1. : 0.;
+    }
+    double power(double base, double exponent)
+    {
+      return std::pow(base, exponent);
+    }
+    double round_down(double value)
+    {
+      return std::floor(value);
+    }
+    double round_up(double value)
+    {
+      return std::ceil(value);
+    }
+    double remainder_of(double value, double divisor)
+    {
+      return std::fmod(value, divisor);
+    }
+
+    void define_names(mu::Parser &parser)
+    {
+      parser.DefineConst("pi", std::acos(-1.));
+      parser.DefineConst("e", std::exp(1.));
+      parser.DefineFun("if", choose);
+      parser.DefineFun("pow", power);
+      parser.DefineFun("floor", round_down);
+      parser.DefineFun("ceil", round_up);
+      parser.DefineFun("mod", remainder_of);
+      parser.DefineInfixOprt("!", negate);
+    }
+  } // namespace
+
+  struct Expression::Implementation
+  {
+    std::string           text, what;
+    std::array<double, 4> variables{{0., 0., 0., 0.}};
+    mu::Parser            parser;
+    bool                  constant = false;
+
+    Implementation(const std::string &text, const std::string &what) : text(text), what(what)
+    {
+      if (text.find_first_not_of(" \t\n\r") == std::string::npos)
+        throw InputError(what + ": the expression is empty. Give a function of x, y, z and t.");
+      try
+        {
+          define_names(parser);
+          const char *names[] = {"x", "y", "z", "t"};
+          for (unsigned int i = 0; i < 4; ++i)
+            parser.DefineVar(names[i], &variables[i]);
+          parser.SetExpr(text);
+          parser.Eval();
+          int n_values = 0;
+          parser.Eval(n_values);
+          if (n_values != 1)
+            throw InputError(what + ": '" + text + "' has " + std::to_string(n_values)
+                             + " values separated by commas where one is wanted. Components of a "
+                               "vector are separated by semicolons.");
+          constant = parser.GetUsedVar().empty();
+        }
+      catch (const mu::Parser::exception_type &error)
+        {
+          throw InputError(what + ": the expression '" + text
+                           + "' cannot be read: " + error.GetMsg()
+                           + " Known are x, y, z, t, pi, e, if(c,a,b) and the "
+                             "functions and operators of muParser.");
+        }
+    }
+  };
+
+  Expression::Expression(const std::string &text, const std::string &what)
+    : implementation(std::make_unique<Implementation>(text, what))
+  {
+  }
+
+  Expression::Expression(const Expression &other)
+    : Expression(other.implementation->text, other.implementation->what)
+  {
+  }
+
+  Expression::Expression(Expression &&other) noexcept = default;
+
+  Expression &Expression::operator=(const Expression &other)
+  {
+    return *this = Expression(other);
+  }
+
+  Expression &Expression::operator=(Expression &&other) noexcept = default;
+
+  Expression::~Expression() = default;
+
+  double Expression::operator()(const Point<3> &point, double t) const
+  {
+    auto &v = implementation->variables;
+    v       = {{point[0], point[1], point[2], t}};
+    double value;
+    try
+      {
+        value = implementation->parser.Eval();
+      }
+    catch (const mu::Parser::exception_type &error)
+      {
+        throw InputError(implementation->what + ": the expression '" + implementation->text
+                         + "' cannot be evaluated: " + error.GetMsg());
+      }
+    if (!std::isfinite(value))
+      {
+        std::ostringstream message;
+        message << implementation->what << ": the expression '" << implementation->text
+                << "' is not finite at (" << point[0] << ", " << point[1] << ", " << point[2]
+                << ")";
+        if (t != 0.)
+          message << ", t = " << t;
+        message << ". Change it so that it has a value everywhere on the mesh.";
+        throw InputError(message.str());
+      }
+    return value;
+  }
+
+  bool Expression::holds(const Point<3> &point, double t) const
+  {
+    return (*this)(point, t) != 0.;
+  }
+
+  bool Expression::is_constant() const
+  {
+    return implementation->constant;
+  }
+
+  const std::string &Expression::text() const
+  {
+    return implementation->text;
+  }
+
+  VectorExpression::VectorExpression(const std::array<std::string, 3> &texts,
+                                     const std::string                &what)
+    : components{{Expression(texts[0], what + ", component x"),
+                  Expression(texts[1], what + ", component y"),
+                  Expression(texts[2], what + ", component z")}}
+  {
+  }
+
+  Tensor<1, 3> VectorExpression::operator()(const Point<3> &point, double t) const
+  {
+    Tensor<1, 3> value;
+    for (unsigned int c = 0; c < 3; ++c)
+      value[c] = components[c](point, t);
+    return value;
+  }
+
+  bool VectorExpression::is_constant() const
+  {
+    return components[0].is_constant() && components[1].is_constant()
+           && components[2].is_constant();
+  }
+} // namespace tetradapt::core
