@@ -8,9 +8,21 @@
 #include "tetradapt/scene/scene.h"
 
 #include <map>
+#include <set>
 
 namespace tetradapt::mechanics
 {
+  /**
+   * The region ids that a material or a load on the body names; all of them if
+   * it names none.
+   * @param what is the place in messages, such as "Loads/weight".
+   * @throws core::InputError for a region or a group that @p mesh does not have.
+   */
+  std::set<int> resolve_regions(const std::vector<int>         &ids,
+                                const std::vector<std::string> &groups,
+                                const mesh::TetMesh            &mesh,
+                                const std::string              &what);
+
   /**
    * The material of every region, and the thermal strain that the scene's
    * temperature loads cause there. Made once a scene; region ids survive
@@ -22,6 +34,10 @@ namespace tetradapt::mechanics
     /** @throws InputError if a region of @p mesh has no material, two claim it,
      *          or a material or temperature names a region that does not exist. */
     MaterialMap(const scene::Scene &scene, const mesh::TetMesh &mesh);
+
+    /** Entries point into this object. */
+    MaterialMap(const MaterialMap &)            = delete;
+    MaterialMap &operator=(const MaterialMap &) = delete;
 
     /** The law of region @p region. */
     const ConstitutiveLaw &law(int region) const;

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_mechanics_linear_elastic_h
+#define tetradapt_mechanics_linear_elastic_h
+
+#include "tetradapt/mechanics/constitutive_law.h"
+
+namespace tetradapt::mechanics
+{
+  /**
+   * Isotropic linear elasticity with small strains:
+   * stress = lambda tr(strain) I + 2 mu strain, strain = (G + G^T)/2.
+   */
+  class LinearElastic : public ConstitutiveLaw
+  {
+  public:
+    /** @param young_modulus E > 0. @param poisson_ratio nu in (-1, 0.5).
+     *  @throws core::InputError outside these bounds. */
+    LinearElastic(double young_modulus, double poisson_ratio);
+
+    bool                  is_linear() const override;
+    SymmetricTensor<2, 3> stress(const Tensor<2, 3> &G) const override;
+    SymmetricTensor<4, 3> tangent(const Tensor<2, 3> &G) const override;
+    double                energy_density(const SymmetricTensor<2, 3> &strain) const override;
+    double                complementary_density(const SymmetricTensor<2, 3> &stress) const override;
+
+  private:
+    double lambda; ///< first Lame parameter
+    double mu;     ///< shear modulus
+  };
+} // namespace tetradapt::mechanics
+
+#endif

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/mechanics/linear_elastic.h"
+
+#include "tetradapt/core/exceptions.h"
+
+namespace tetradapt::mechanics
+{
+  LinearElastic::LinearElastic(double young_modulus, double poisson_ratio)
+    : lambda(young_modulus * poisson_ratio / ((1. + poisson_ratio) * (1. - 2. * poisson_ratio))),
+      mu(young_modulus / (2. * (1. + poisson_ratio)))
+  {
+    if (!(young_modulus > 0.) || !(poisson_ratio > -1.) || !(poisson_ratio < 0.5))
+      throw core::InputError("Linear elasticity needs E > 0 and -1 < nu < 0.5, but E = "
+                             + std::to_string(young_modulus)
+                             + " and nu = " + std::to_string(poisson_ratio) + ".");
+  }
+
+  bool LinearElastic::is_linear() const
+  {
+    return true;
+  }
+
+  SymmetricTensor<2, 3> LinearElastic::stress(const Tensor<2, 3> &G) const
+  {
+    const SymmetricTensor<2, 3> strain = symmetrize(G);
+    return lambda * trace(strain) * dealii::unit_symmetric_tensor<3>() + 2. * mu * strain;
+  }
+
+  SymmetricTensor<4, 3> LinearElastic::tangent(const Tensor<2, 3> &) const
+  {
+    const auto I = dealii::unit_symmetric_tensor<3>();
+    return lambda * outer_product(I, I) + 2. * mu * dealii::identity_tensor<3>();
+  }
+
+  double LinearElastic::energy_density(const SymmetricTensor<2, 3> &strain) const
+  {
+    const double volumetric = trace(strain);
+    return lambda * volumetric * volumetric + 2. * mu * (strain * strain);
+  }
+
+  double LinearElastic::complementary_density(const SymmetricTensor<2, 3> &stress) const
+  {
+    const double pressure_part = trace(stress);
+    return (stress * stress - lambda / (3. * lambda + 2. * mu) * pressure_part * pressure_part)
+           / (2. * mu);
+  }
+} // namespace tetradapt::mechanics

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/mechanics/material_map.h"
+
+#include "tetradapt/core/exceptions.h"
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+namespace tetradapt::mechanics
+{
+  namespace
+  {
+    std::string list_regions(const std::set<int> &regions, const std::map<int, std::string> &names)
+    {
+      std::ostringstream text;
+      for (const int region : regions)
+        {
+          text << (text.tellp() > 0 ? ", " : "") << region;
+          const auto name = names.find(region);
+          if (name != names.end() && !name->second.empty())
+            text << " ('" << name->second << "')";
+        }
+      return text.str();
+    }
+  } // namespace
+
+  std::set<int> resolve_regions(const std::vector<int>         &ids,
+                                const std::vector<std::string> &groups,
+                                const mesh::TetMesh            &mesh,
+                                const std::string              &what)
+  {
+    const std::set<int> existing(mesh.regions.begin(), mesh.regions.end());
+    if (ids.empty() && groups.empty())
+      return existing;
+    std::set<int> result;
+    for (const int id : ids)
+      {
+        if (existing.count(id) == 0)
+          throw core::InputError(what + " names region " + std::to_string(id)
+                                 + ", which the mesh does not have. Its regions are "
+                                 + list_regions(existing, mesh.region_names) + ".");
+        result.insert(id);
+      }
+    for (const auto &group : groups)
+      {
+        const auto found = std::find_if(mesh.region_names.begin(),
+                                        mesh.region_names.end(),
+                                        [&](const auto &entry) { return entry.second == group; });
+        if (found == mesh.region_names.end())
+          throw core::InputError(what + " names the region group '" + group
+                                 + "', which the mesh does not have. Its regions are "
+                                 + list_regions(existing, mesh.region_names) + ".");
+        result.insert(found->first);
+      }
+    return result;
+  }
+
+  MaterialMap::MaterialMap(const scene::Scene &scene, const mesh::TetMesh &mesh)
+    : materials(scene.materials)
+  {
+    // Materials that name regions come first; one that names none fills the rest.
+    std::vector<const scene::MaterialParameters *> order;
+    for (const auto &material : materials)
+      order.push_back(&material);
+    std::stable_partition(order.begin(), order.end(), [](const auto *material) {
+      return !material->regions.empty() || !material->region_groups.empty();
+    });
+    const scene::MaterialParameters *rest = nullptr;
+    for (const auto *material : order)
+      {
+        const bool everywhere = material->regions.empty() && material->region_groups.empty();
+        if (everywhere && rest != nullptr)
+          throw core::InputError("Materials/" + material->name + " and Materials/" + rest->name
+                                 + " both name no region: only one material can fill what the "
+                                   "others leave. Give one of them Regions or Region groups.");
+        if (everywhere)
+          rest = material;
+        const std::shared_ptr<ConstitutiveLaw> law = make_law(*material);
+        for (const int region : resolve_regions(
+               material->regions, material->region_groups, mesh, "Materials/" + material->name))
+          {
+            const auto existing = entries.find(region);
+            if (existing == entries.end())
+              entries[region] = Entry{material, law, {}};
+            else if (!everywhere)
+              throw core::InputError("Region " + std::to_string(region)
+                                     + " is given two materials, Materials/"
+                                     + existing->second.parameters->name + " and Materials/"
+                                     + material->name + ". Name it in one of them only.");
+          }
+      }
+    for (const int region : std::set<int>(mesh.regions.begin(), mesh.regions.end()))
+      if (entries.count(region) == 0)
+        throw core::InputError(
+          "Region " + std::to_string(region)
+          + " of the mesh has no material. Name it in one of the Materials, or "
+            "add a material without Regions, which fills what the others leave.");
+    for (const auto &load : scene.loads)
+      if (load.type == scene::LoadType::temperature)
+        {
+          const core::Expression temperature(load.value[0], "Loads/" + load.name + "/Value");
+          for (const int region :
+               resolve_regions(load.selector.ids, load.selector.groups, mesh, "Loads/" + load.name))
+            entries[region].temperatures.push_back(temperature);
+          thermal = true;
+        }
+  }
+
+  const MaterialMap::Entry &MaterialMap::entry(int region) const
+  {
+    const auto found = entries.find(region);
+    if (found == entries.end())
+      throw core::InputError("Region " + std::to_string(region)
+                             + " has no material: it was not in the mesh that the materials were "
+                               "given for.");
+    return found->second;
+  }
+
+  const ConstitutiveLaw &MaterialMap::law(int region) const
+  {
+    return *entry(region).law;
+  }
+
+  const scene::MaterialParameters &MaterialMap::parameters(int region) const
+  {
+    return *entry(region).parameters;
+  }
+
+  bool MaterialMap::has_thermal_strain() const
+  {
+    return thermal;
+  }
+
+  SymmetricTensor<2, 3> MaterialMap::thermal_strain(int region, const dealii::Point<3> &point) const
+  {
+    double temperature = 0.;
+    if (thermal)
+      for (const auto &expression : entry(region).temperatures)
+        temperature += expression(point);
+    return parameters(region).thermal_expansion * temperature * dealii::unit_symmetric_tensor<3>();
+  }
+} // namespace tetradapt::mechanics
