@@ -20,7 +20,30 @@ namespace tetradapt::mesh
     std::vector<std::array<unsigned int, 6>> cell_edges; ///< per cell, in edge_vertices order
   };
 
-  EdgeTable build_edges(const TetMesh &mesh);
+  /**
+   * Numbers the edges of @p mesh. Linear in the number of cells (edges are put
+   * into one bucket a point and sorted there), so that one point with a great
+   * many edges does no harm.
+   */
+  EdgeTable
+  build_edges(const TetMesh &mesh);
+
+  /** Finds the number of an edge from its two end points. */
+  class EdgeFinder
+  {
+  public:
+    /** @p table must outlive the finder. @p n_points is that of the mesh. */
+    EdgeFinder(const EdgeTable &table, unsigned int n_points);
+
+    /** Number of the edge between points @p a and @p b, in any order, or
+     * numbers::invalid_unsigned_int if there is none. */
+    unsigned int
+    find(unsigned int a, unsigned int b) const;
+
+  private:
+    std::vector<unsigned int>                begin;   ///< per point: first entry below
+    std::vector<std::array<unsigned int, 2>> entries; ///< larger end, edge number; sorted
+  };
 } // namespace tetradapt::mesh
 
 #endif

@@ -30,7 +30,7 @@ namespace tetradapt::mesh
   /** A triangle of the boundary. */
   struct BoundaryFace
   {
-    std::array<unsigned int, 3> vertices;  ///< point numbers, any orientation
+    std::array<unsigned int, 3> vertices;  ///< point numbers; see finalize()
     unsigned int                patch = 0; ///< index into TetMesh::patches
   };
 
@@ -40,7 +40,8 @@ namespace tetradapt::mesh
    *
    * Invariants after finalize() (see mesh_checks.h): every cell has positive
    * volume, i.e. (p1-p0)x(p2-p0).(p3-p0) > 0; faces holds each boundary triangle
-   * exactly once; every face and cell refers to an existing patch or region.
+   * exactly once, its vertices counter-clockwise seen from outside; every face
+   * and cell refers to an existing patch or region.
    */
   struct TetMesh
   {
@@ -51,24 +52,34 @@ namespace tetradapt::mesh
     std::vector<Patch>                       patches;
     std::map<int, std::string>               region_names;
 
-    unsigned int n_points() const
+    unsigned int
+    n_points() const
     {
       return points.size();
     }
-    unsigned int n_cells() const
+    unsigned int
+    n_cells() const
     {
       return cells.size();
     }
   };
 
   /** Signed volume of cell @p cell, in the cube of the mesh's length unit. */
-  double cell_volume(const TetMesh &mesh, unsigned int cell);
+  double
+  cell_volume(const TetMesh &mesh, unsigned int cell);
 
   /** Sum of all cell volumes. */
-  double total_volume(const TetMesh &mesh);
+  double
+  total_volume(const TetMesh &mesh);
+
+  /** Normal of a face, as long as its area is large; it points out of the body
+   * once finalize() has turned the face. */
+  Tensor<1, 3>
+  face_area_vector(const TetMesh &mesh, const BoundaryFace &face);
 
   /** Smallest axis-parallel box around the points: lower and upper corner. */
-  std::pair<Point<3>, Point<3>> bounding_box(const TetMesh &mesh);
+  std::pair<Point<3>, Point<3>>
+  bounding_box(const TetMesh &mesh);
 } // namespace tetradapt::mesh
 
 #endif

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/mesh/face_table.h"
+
+#include <algorithm>
+
+namespace tetradapt::mesh
+{
+  namespace
+  {
+    std::array<unsigned int, 3>
+    sorted(unsigned int a, unsigned int b, unsigned int c)
+    {
+      if (a > b)
+        std::swap(a, b);
+      if (b > c)
+        std::swap(b, c);
+      if (a > b)
+        std::swap(a, b);
+      return {{a, b, c}};
+    }
+
+
+
+    /** Calls @p visit with the sorted vertices of every entry, in the order of slots. */
+    template <typename Visitor>
+    void
+    for_each_slot(const TetMesh &mesh, const Visitor &visit)
+    {
+      for (const auto &cell : mesh.cells)
+        for (const auto &face : face_vertices)
+          visit(sorted(cell[face[0]], cell[face[1]], cell[face[2]]));
+      for (const BoundaryFace &face : mesh.faces)
+        visit(sorted(face.vertices[0], face.vertices[1], face.vertices[2]));
+    }
+  } // namespace
+
+
+
+  FaceTable::FaceTable(const TetMesh &mesh)
+    : begin(mesh.n_points() + 2, 0), entries(4 * mesh.cells.size() + mesh.faces.size())
+  {
+    for_each_slot(mesh, [&](const std::array<unsigned int, 3> &v) { ++begin[v[0] + 2]; });
+    for (std::size_t i = 2; i < begin.size(); ++i)
+      begin[i] += begin[i - 1];
+
+    // begin[v + 1] runs through bucket v while it is filled and ends as the
+    // beginning of bucket v + 1.
+    unsigned int slot = 0;
+    for_each_slot(mesh, [&](const std::array<unsigned int, 3> &v) {
+      entries[begin[v[0] + 1]++] = {v[1], v[2], slot++};
+    });
+    begin.pop_back();
+
+    for (std::size_t v = 0; v + 1 < begin.size(); ++v)
+      std::sort(entries.begin() + begin[v],
+                entries.begin() + begin[v + 1],
+                [](const Entry &a, const Entry &b) {
+                  if (a.middle != b.middle)
+                    return a.middle < b.middle;
+                  return a.largest != b.largest ? a.largest < b.largest : a.slot < b.slot;
+                });
+  }
+
+
+
+  std::vector<std::array<unsigned int, 4>>
+  cell_neighbors(const TetMesh &mesh)
+  {
+    constexpr unsigned int                   none = dealii::numbers::invalid_unsigned_int;
+    std::vector<std::array<unsigned int, 4>> neighbors(mesh.cells.size(),
+                                                       {{none, none, none, none}});
+    const std::size_t                        n_slots = 4 * mesh.cells.size();
+    FaceTable(mesh).for_each_triangle(
+      [&](const FaceTable::Entry *first, const FaceTable::Entry *last) {
+        if (last - first < 2 || first[1].slot >= n_slots)
+          return;
+        neighbors[first[0].slot / 4][first[0].slot % 4] = first[1].slot / 4;
+        neighbors[first[1].slot / 4][first[1].slot % 4] = first[0].slot / 4;
+      });
+    return neighbors;
+  }
+
+
+
+  std::vector<unsigned int>
+  connected_components(const TetMesh &mesh)
+  {
+    constexpr unsigned int    none      = dealii::numbers::invalid_unsigned_int;
+    const auto                neighbors = cell_neighbors(mesh);
+    std::vector<unsigned int> part(mesh.cells.size(), none);
+    std::vector<unsigned int> front;
+    unsigned int              n_parts = 0;
+    for (unsigned int start = 0; start < part.size(); ++start)
+      if (part[start] == none)
+        {
+          part[start] = n_parts;
+          front.assign(1, start);
+          while (!front.empty())
+            {
+              const unsigned int cell = front.back();
+              front.pop_back();
+              for (const unsigned int neighbor : neighbors[cell])
+                if (neighbor != none && part[neighbor] == none)
+                  {
+                    part[neighbor] = n_parts;
+                    front.push_back(neighbor);
+                  }
+            }
+          ++n_parts;
+        }
+    return part;
+  }
+} // namespace tetradapt::mesh
