@@ -20,7 +20,8 @@ namespace tetradapt::core
     /** Creates an empty file that did not exist. The process number keeps two
      * programs apart, the attempt what a killed one has left. open() and not
      * mkstemp(), so that the user's umask decides on the permissions. */
-    std::string create_temporary(const fs::path &target, const std::string &name)
+    std::string
+    create_temporary(const fs::path &target, const std::string &name)
     {
       const fs::path directory = target.has_parent_path() ? target.parent_path() : fs::path(".");
       for (unsigned int attempt = 0; attempt < 1000; ++attempt)
@@ -82,7 +83,8 @@ namespace tetradapt::core
       }
   }
 
-  void AtomicFile::fail(const std::string &what, const int error_number)
+  void
+  AtomicFile::fail(const std::string &what, const int error_number)
   {
     out.close();
     ::unlink(temporary.c_str());
@@ -92,7 +94,8 @@ namespace tetradapt::core
                          + ". Make room on the disk or choose another output directory.");
   }
 
-  void AtomicFile::commit(const bool sync)
+  void
+  AtomicFile::commit(const bool sync)
   {
     if (temporary.empty())
       return;
@@ -132,7 +135,8 @@ namespace tetradapt::core
     temporary.clear();
   }
 
-  void write_file(const std::string &path, const std::string &content)
+  void
+  write_file(const std::string &path, const std::string &content)
   {
     AtomicFile file(path);
     file.stream().write(content.data(), content.size());

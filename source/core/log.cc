@@ -6,13 +6,15 @@
 
 namespace tetradapt::core
 {
-  unsigned int Log::add_sink(Sink sink)
+  unsigned int
+  Log::add_sink(Sink sink)
   {
     sinks.emplace_back(next_number, std::move(sink));
     return next_number++;
   }
 
-  void Log::remove_sink(const unsigned int number)
+  void
+  Log::remove_sink(const unsigned int number)
   {
     sinks.erase(std::remove_if(sinks.begin(),
                                sinks.end(),
@@ -20,27 +22,32 @@ namespace tetradapt::core
                 sinks.end());
   }
 
-  void Log::progress(const std::string &text) const
+  void
+  Log::progress(const std::string &text) const
   {
     send(LogLevel::progress, text);
   }
 
-  void Log::info(const std::string &text) const
+  void
+  Log::info(const std::string &text) const
   {
     send(LogLevel::info, text);
   }
 
-  void Log::warning(const std::string &text) const
+  void
+  Log::warning(const std::string &text) const
   {
     send(LogLevel::warning, text);
   }
 
-  void Log::error(const std::string &text) const
+  void
+  Log::error(const std::string &text) const
   {
     send(LogLevel::error, text);
   }
 
-  void Log::send(const LogLevel level, const std::string &text) const
+  void
+  Log::send(const LogLevel level, const std::string &text) const
   {
     for (const auto &entry : sinks)
       entry.second(level, text);

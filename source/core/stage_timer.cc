@@ -11,7 +11,8 @@ namespace tetradapt::core
 {
   namespace
   {
-    double cpu_seconds(const int who)
+    double
+    cpu_seconds(const int who)
     {
       rusage usage{};
       ::getrusage(who, &usage);
@@ -38,19 +39,22 @@ namespace tetradapt::core
     finished[0].stage = "other";
   }
 
-  StageTimer::Scope StageTimer::scope(const std::string &stage)
+  StageTimer::Scope
+  StageTimer::scope(const std::string &stage)
   {
     return Scope(*this, stage);
   }
 
-  StageTimer::Clocks StageTimer::now()
+  StageTimer::Clocks
+  StageTimer::now()
   {
     const auto wall = std::chrono::steady_clock::now().time_since_epoch();
     return {std::chrono::duration<double>(wall).count(),
             cpu_seconds(RUSAGE_SELF) + cpu_seconds(RUSAGE_CHILDREN)};
   }
 
-  void StageTimer::charge()
+  void
+  StageTimer::charge()
   {
     const Clocks time = now();
     Row         &row  = finished[open.empty() ? 0 : open.back()];
@@ -59,7 +63,8 @@ namespace tetradapt::core
     last = time;
   }
 
-  unsigned int StageTimer::row_number(const std::string &stage)
+  unsigned int
+  StageTimer::row_number(const std::string &stage)
   {
     for (unsigned int i = 0; i < finished.size(); ++i)
       if (finished[i].stage == stage)
@@ -69,7 +74,8 @@ namespace tetradapt::core
     return finished.size() - 1;
   }
 
-  std::vector<StageTimer::Row> StageTimer::rows() const
+  std::vector<StageTimer::Row>
+  StageTimer::rows() const
   {
     StageTimer copy(*this);
     copy.charge();
@@ -77,7 +83,8 @@ namespace tetradapt::core
     return copy.finished;
   }
 
-  double StageTimer::wall(const std::string &stage) const
+  double
+  StageTimer::wall(const std::string &stage) const
   {
     for (const Row &row : rows())
       if (row.stage == stage)
@@ -85,7 +92,8 @@ namespace tetradapt::core
     return 0.;
   }
 
-  double StageTimer::cpu(const std::string &stage) const
+  double
+  StageTimer::cpu(const std::string &stage) const
   {
     for (const Row &row : rows())
       if (row.stage == stage)
@@ -93,7 +101,8 @@ namespace tetradapt::core
     return 0.;
   }
 
-  double StageTimer::total_wall() const
+  double
+  StageTimer::total_wall() const
   {
     double sum = 0.;
     for (const Row &row : rows())
@@ -101,7 +110,8 @@ namespace tetradapt::core
     return sum;
   }
 
-  double StageTimer::total_cpu() const
+  double
+  StageTimer::total_cpu() const
   {
     double sum = 0.;
     for (const Row &row : rows())
@@ -109,7 +119,8 @@ namespace tetradapt::core
     return sum;
   }
 
-  std::string StageTimer::table() const
+  std::string
+  StageTimer::table() const
   {
     const std::vector<Row> all = rows();
 

@@ -27,12 +27,15 @@ namespace tetradapt::core
     explicit AtomicFile(const std::string &path);
     ~AtomicFile();
 
-    AtomicFile(const AtomicFile &)            = delete;
-    AtomicFile &operator=(const AtomicFile &) = delete;
+    AtomicFile(const AtomicFile &) = delete;
+    AtomicFile &
+    operator=(const AtomicFile &)
+      = delete;
 
     /** What to write to. Its state is checked by commit(): no need to after each
      * write. */
-    std::ostream &stream()
+    std::ostream &
+    stream()
     {
       return out;
     }
@@ -45,15 +48,18 @@ namespace tetradapt::core
      * @throws NumericalError with the path and the system's reason if something
      *         could not be written (a full disk) or renamed.
      */
-    void commit(bool sync = false);
+    void
+    commit(bool sync = false);
 
-    const std::string &path() const
+    const std::string &
+    path() const
     {
       return name;
     }
 
   private:
-    void fail(const std::string &what, int error_number);
+    void
+    fail(const std::string &what, int error_number);
 
     std::string   name;      ///< as given, for messages
     std::string   target;    ///< with symbolic links resolved
@@ -62,7 +68,8 @@ namespace tetradapt::core
   };
 
   /** Writes @p content to @p path by an AtomicFile. @throws as AtomicFile does. */
-  void write_file(const std::string &path, const std::string &content);
+  void
+  write_file(const std::string &path, const std::string &content);
 } // namespace tetradapt::core
 
 #endif

@@ -34,8 +34,10 @@ namespace tetradapt::core
     public:
       Scope(StageTimer &timer, const std::string &stage);
       ~Scope();
-      Scope(const Scope &)            = delete;
-      Scope &operator=(const Scope &) = delete;
+      Scope(const Scope &) = delete;
+      Scope &
+      operator=(const Scope &)
+        = delete;
 
     private:
       StageTimer &timer;
@@ -46,36 +48,46 @@ namespace tetradapt::core
 
     /** Opens @p stage: `const auto scope = timer.scope("solve");`. Rows appear in
      * the order in which stages are first opened. */
-    Scope scope(const std::string &stage);
+    Scope
+    scope(const std::string &stage);
 
     /** Wall seconds of @p stage until now; 0 for one that has not been opened. */
-    double wall(const std::string &stage) const;
+    double
+    wall(const std::string &stage) const;
 
     /** CPU seconds of @p stage until now; 0 for one that has not been opened. */
-    double cpu(const std::string &stage) const;
+    double
+    cpu(const std::string &stage) const;
 
     /** Wall seconds since construction: the sum of all rows. */
-    double total_wall() const;
+    double
+    total_wall() const;
 
     /** CPU seconds since construction: the sum of all rows. */
-    double total_cpu() const;
+    double
+    total_cpu() const;
 
     /** All rows until now, "other" last. */
-    std::vector<Row> rows() const;
+    std::vector<Row>
+    rows() const;
 
     /** An aligned table of rows() with shares of the wall time and a total. */
-    std::string table() const;
+    std::string
+    table() const;
 
   private:
     struct Clocks
     {
       double wall, cpu;
     };
-    static Clocks now();
+    static Clocks
+    now();
 
     /** Gives the time since the last call to the row that runs. */
-    void         charge();
-    unsigned int row_number(const std::string &stage);
+    void
+    charge();
+    unsigned int
+    row_number(const std::string &stage);
 
     Clocks                    last;
     std::vector<Row>          finished; ///< entry 0 is "other"

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_report_convergence_table_h
+#define tetradapt_report_convergence_table_h
+
+#include "tetradapt/adapt/observer.h"
+#include "tetradapt/core/log.h"
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+namespace tetradapt::report
+{
+  /**
+   * convergence.csv: a header row with the names of record_columns(), then one row
+   * a cycle, 10 significant digits, nothing between the commas where a scene does
+   * not have a figure.
+   */
+  std::string
+  csv_table(const std::vector<adapt::CycleRecord> &records);
+
+  /**
+   * The same as a table aligned for reading: 7 significant digits, seconds with
+   * three decimals, "-" for a figure that is missing. A column that is empty in
+   * every row is left out.
+   */
+  std::string
+  text_table(const std::vector<adapt::CycleRecord> &records);
+
+  /** The heading of the terminal's table, which has the main columns only; without
+   * an end of line. */
+  std::string
+  terminal_heading();
+
+  /** One row of the terminal's table; without an end of line. */
+  std::string
+  terminal_row(const adapt::CycleRecord &record);
+
+  /**
+   * Writes the figures of every cycle: to a stream as they come, and after each
+   * cycle to convergence.csv and convergence.txt, which are whole at any time.
+   */
+  class ConvergenceTable : public adapt::Observer
+  {
+  public:
+    /**
+     * @param directory where the files go; empty: none are written.
+     * @param terminal  where rows are printed as they come, normally std::cout;
+     *                  null: nowhere. Must outlive the object.
+     * @param log       cleared of a progress line before a row is printed. Must
+     *                  outlive the object.
+     */
+    ConvergenceTable(const std::string &directory, std::ostream *terminal, const core::Log &log);
+
+    /** Begins a new table. */
+    void
+    run_started(const scene::Scene &scene) override;
+
+    /** @throws InputError or NumericalError if a file cannot be written. */
+    void
+    cycle_done(const adapt::CycleEvent &event) override;
+
+    /** The rows so far. */
+    const std::vector<adapt::CycleRecord> &
+    records() const
+    {
+      return rows;
+    }
+
+  private:
+    std::string                     directory;
+    std::ostream                   *terminal;
+    const core::Log                &log;
+    std::vector<adapt::CycleRecord> rows;
+  };
+} // namespace tetradapt::report
+
+#endif

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_report_output_directory_h
+#define tetradapt_report_output_directory_h
+
+#include "tetradapt/scene/scene.h"
+
+#include <string>
+
+namespace tetradapt::report
+{
+  /**
+   * The directory that a run writes to: made if it is missing, checked to be
+   * writable, and free of what an earlier run of the scene left, so that the
+   * files of two runs are never mixed. Only files that this program writes are
+   * removed: cycle_NNN.vtu, <scene>.pvd, convergence.csv, convergence.txt and
+   * log.txt, and temporary files that a killed run has left of those;
+   * parameters.prm is replaced.
+   */
+  class OutputDirectory
+  {
+  public:
+    /**
+     * Prepares the directory of @p scene: its Output directory, or output/<name>
+     * below the working directory. To be made on MPI rank 0 only.
+     *
+     * @throws InputError if the directory cannot be made or written to, or if the
+     *         scene reads one of the files that would be removed.
+     */
+    explicit OutputDirectory(const scene::Scene &scene);
+
+    /** Where a run of @p scene writes to; touches no file. */
+    static std::string
+    path_of(const scene::Scene &scene);
+
+    const std::string &
+    path() const
+    {
+      return directory;
+    }
+
+    /** Path of the file @p name in the directory. */
+    std::string
+    file(const std::string &name) const
+    {
+      return directory + "/" + name;
+    }
+
+    /** Writes parameters.prm, the complete effective input, given as text. */
+    void
+    write_parameters(const std::string &content) const;
+
+    /** What a user looks at after a run: one line a file that exists, saying what
+     * it is. */
+    std::string
+    files_to_look_at() const;
+
+  private:
+    std::string directory;
+    std::string scene_name;
+  };
+} // namespace tetradapt::report
+
+#endif

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/report/log_sinks.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <ostream>
+
+namespace tetradapt::report
+{
+  namespace
+  {
+    const char *
+    label(const core::LogLevel level)
+    {
+      switch (level)
+        {
+        case core::LogLevel::warning:
+          return "Warning: ";
+        case core::LogLevel::error:
+          return "Error: ";
+        default:
+          return "";
+        }
+    }
+
+    /** The first line of @p text, at most @p width bytes of it, not cut within a
+     * UTF-8 character. */
+    std::string
+    one_line(const std::string &text, const std::size_t width)
+    {
+      std::size_t length = std::min(text.find('\n'), text.size());
+      if (length > width)
+        for (length = width; length > 0 && (text[length] & 0xC0) == 0x80;)
+          --length;
+      return text.substr(0, length);
+    }
+  } // namespace
+
+  TerminalSink::TerminalSink(core::Log &log, std::ostream &stream, const Options &options)
+    : log(log), stream(stream), options(options),
+      number(log.add_sink(
+        [this](const core::LogLevel level, const std::string &text) { show(level, text); }))
+  {
+  }
+
+  TerminalSink::~TerminalSink()
+  {
+    clear_progress();
+    log.remove_sink(number);
+  }
+
+  TerminalSink::Options
+  TerminalSink::stderr_options(const bool quiet)
+  {
+    Options     options;
+    const char *terminal = std::getenv("TERM");
+    options.quiet        = quiet;
+    options.is_terminal
+      = ::isatty(STDERR_FILENO) == 1 && terminal != nullptr && std::string(terminal) != "dumb";
+    winsize size{};
+    if (options.is_terminal && ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
+      options.width = size.ws_col;
+    return options;
+  }
+
+  void
+  TerminalSink::show(const core::LogLevel level, const std::string &text)
+  {
+    if (level == core::LogLevel::progress)
+      show_progress(text);
+    else if (!options.quiet || level != core::LogLevel::info)
+      {
+        clear_progress();
+        stream << label(level) << text << std::endl;
+      }
+  }
+
+  void
+  TerminalSink::show_progress(const std::string &text)
+  {
+    if (!options.is_terminal || options.quiet)
+      return;
+    if (text.empty())
+      {
+        clear_progress();
+        return;
+      }
+    const auto now = Clock::now();
+    if (progress_is_shown
+        && std::chrono::duration<double>(now - last_progress).count() < options.min_interval)
+      return;
+    // The last column stays free: some terminals wrap when it is written to.
+    stream << "\r\033[K" << one_line(text, options.width > 1 ? options.width - 1 : 1) << std::flush;
+    progress_is_shown = true;
+    last_progress     = now;
+  }
+
+  void
+  TerminalSink::clear_progress()
+  {
+    if (progress_is_shown)
+      stream << "\r\033[K" << std::flush;
+    progress_is_shown = false;
+  }
+
+  LogFile::LogFile(core::Log &log, const std::string &path)
+    : log(log), file(path), start(std::chrono::steady_clock::now()),
+      number(log.add_sink(
+        [this](const core::LogLevel level, const std::string &text) { write(level, text); }))
+  {
+  }
+
+  LogFile::~LogFile()
+  {
+    try
+      {
+        close();
+      }
+    catch (const std::exception &)
+      {
+        // A destructor has nobody to tell; close() is for those who ask.
+      }
+  }
+
+  void
+  LogFile::close()
+  {
+    if (closed)
+      return;
+    closed = true;
+    log.remove_sink(number);
+    file.commit();
+  }
+
+  void
+  LogFile::write(const core::LogLevel level, const std::string &text)
+  {
+    if (level == core::LogLevel::progress)
+      return;
+    char time[40];
+    std::snprintf(time,
+                  sizeof time,
+                  "[%10.3f s] ",
+                  std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    // Lines of a table stay below each other.
+    std::string aligned;
+    for (const char c : text)
+      {
+        aligned += c;
+        if (c == '\n')
+          aligned += "               ";
+      }
+    file.stream() << time << label(level) << aligned << std::endl;
+  }
+} // namespace tetradapt::report

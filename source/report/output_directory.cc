@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/report/output_directory.h"
+
+#include "tetradapt/core/atomic_file.h"
+#include "tetradapt/core/exceptions.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <vector>
+
+namespace tetradapt::report
+{
+  namespace fs = std::filesystem;
+
+  namespace
+  {
+    bool
+    is_number(const std::string &text)
+    {
+      return !text.empty() && std::all_of(text.begin(), text.end(), [](const unsigned char c) {
+        return std::isdigit(c) != 0;
+      });
+    }
+
+    /** Whether a run of the scene @p scene_name writes a file of this name. */
+    bool
+    is_own_file(const std::string &name, const std::string &scene_name)
+    {
+      for (const std::string own :
+           {"convergence.csv", "convergence.txt", "parameters.prm", "log.txt"})
+        if (name == own)
+          return true;
+      if (name == scene_name + ".pvd")
+        return true;
+      // cycle_NNN.vtu
+      return name.size() >= 13 && name.compare(0, 6, "cycle_") == 0
+             && name.compare(name.size() - 4, 4, ".vtu") == 0
+             && is_number(name.substr(6, name.size() - 10));
+    }
+
+    /** The file that @p name is a temporary of (".<file>.<process>.<attempt>.tmp",
+     * as AtomicFile names them), or an empty text. */
+    std::string
+    file_of_temporary(const std::string &name)
+    {
+      if (name.size() < 6 || name[0] != '.' || name.compare(name.size() - 4, 4, ".tmp") != 0)
+        return "";
+      std::string rest = name.substr(1, name.size() - 5);
+      for (unsigned int i = 0; i < 2; ++i)
+        {
+          const std::size_t dot = rest.rfind('.');
+          if (dot == std::string::npos || !is_number(rest.substr(dot + 1)))
+            return "";
+          rest.resize(dot);
+        }
+      return rest;
+    }
+
+    /** Files that a run of @p scene_name would mix with its own. */
+    std::vector<fs::path>
+    stale_files(const fs::path &directory, const std::string &scene_name)
+    {
+      std::vector<fs::path> stale;
+      for (const auto &entry : fs::directory_iterator(directory))
+        {
+          const std::string name = entry.path().filename().string();
+          // parameters.prm is replaced at once, and may be the very scene that runs.
+          if (name == "parameters.prm" || fs::is_directory(entry.symlink_status()))
+            continue;
+          if (is_own_file(name, scene_name) || is_own_file(file_of_temporary(name), scene_name))
+            stale.push_back(entry.path());
+        }
+      return stale;
+    }
+
+    void
+    check_not_read(const scene::Scene &scene, const std::vector<fs::path> &stale)
+    {
+      std::vector<std::string> inputs;
+      if (scene.mesh.source == scene::MeshSource::file
+          || scene.mesh.source == scene::MeshSource::surface)
+        inputs = scene.mesh.files;
+      if (scene.reference.type != scene::ReferenceParameters::Type::none)
+        inputs.push_back(scene.reference.file);
+      for (const std::string &input : inputs)
+        for (const fs::path &path : stale)
+          {
+            std::error_code error;
+            if (!input.empty() && fs::equivalent(input, path, error))
+              throw core::InputError("The scene '" + scene.file + "' reads the file '" + input
+                                     + "', which lies in its own output directory and would be "
+                                       "overwritten. Move that file or set another directory in "
+                                       "Output.");
+          }
+    }
+  } // namespace
+
+  std::string
+  OutputDirectory::path_of(const scene::Scene &scene)
+  {
+    return scene.output.directory.empty() ? "output/" + scene.name : scene.output.directory;
+  }
+
+  OutputDirectory::OutputDirectory(const scene::Scene &scene)
+    : directory(path_of(scene)), scene_name(scene.name)
+  {
+    std::error_code error;
+    fs::create_directories(directory, error);
+    if (!error && !fs::is_directory(directory))
+      error = std::make_error_code(std::errc::not_a_directory);
+    if (error)
+      throw core::InputError("Cannot make the output directory '" + directory
+                             + "': " + error.message() + ". Choose another one in Output.");
+    try
+      {
+        // Never committed: nothing but a test whether files can be made here.
+        {
+          core::AtomicFile probe(file("log.txt"));
+        }
+        const auto stale = stale_files(directory, scene_name);
+        check_not_read(scene, stale);
+        for (const fs::path &path : stale)
+          fs::remove(path);
+      }
+    catch (const fs::filesystem_error &e)
+      {
+        throw core::InputError("Cannot clear the output directory '" + directory
+                               + "' of an earlier run's files: " + e.code().message()
+                               + ". Choose another one in Output.");
+      }
+  }
+
+  void
+  OutputDirectory::write_parameters(const std::string &content) const
+  {
+    core::write_file(file("parameters.prm"), content);
+  }
+
+  std::string
+  OutputDirectory::files_to_look_at() const
+  {
+    const std::vector<std::pair<std::string, std::string>> candidates{
+      {"convergence.txt", "the figures of every cycle, for reading"},
+      {"convergence.csv", "the same for a spreadsheet or contrib/plot_convergence"},
+      {scene_name + ".pvd", "all cycles, for ParaView"},
+      {"parameters.prm", "the complete input"},
+      {"log.txt", "what happened when"}};
+
+    std::size_t width = 0;
+    for (const auto &[name, what] : candidates)
+      width = std::max(width, file(name).size());
+    std::string text = "Files to look at:";
+    for (const auto &[name, what] : candidates)
+      {
+        std::error_code error;
+        // log.txt gets its name when the run is over.
+        if (fs::exists(file(name), error) || name == "log.txt")
+          text += "\n  " + file(name) + std::string(width - file(name).size() + 2, ' ') + what;
+      }
+    return text;
+  }
+} // namespace tetradapt::report
