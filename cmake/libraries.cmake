@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+#
+# The libraries beside deal.II, each as an interface target tetradapt_<name>.
+
+# tetradapt_find_library(<name> <Debian package> [HEADER <header>] [LIBRARY <library>])
+function(tetradapt_find_library _name _package)
+  cmake_parse_arguments(_ARG "" "HEADER;LIBRARY" "" ${ARGN})
+  string(TOUPPER "TETRADAPT_${_name}" _variable)
+  add_library(tetradapt_${_name} INTERFACE)
+  set(_missing "")
+  if(_ARG_HEADER)
+    find_path(${_variable}_INCLUDE_DIR ${_ARG_HEADER})
+    mark_as_advanced(${_variable}_INCLUDE_DIR)
+    if(${_variable}_INCLUDE_DIR)
+      target_include_directories(tetradapt_${_name} SYSTEM INTERFACE ${${_variable}_INCLUDE_DIR})
+    else()
+      set(_missing "header ${_ARG_HEADER}")
+    endif()
+  endif()
+  if(_ARG_LIBRARY)
+    find_library(${_variable}_LIBRARY ${_ARG_LIBRARY})
+    mark_as_advanced(${_variable}_LIBRARY)
+    if(${_variable}_LIBRARY)
+      target_link_libraries(tetradapt_${_name} INTERFACE ${${_variable}_LIBRARY})
+    else()
+      set(_missing "library lib${_ARG_LIBRARY}")
+    endif()
+  endif()
+  if(_missing)
+    message(FATAL_ERROR
+      "The ${_missing} was not found: install Debian's package ${_package}, or set "
+      "${_variable}_INCLUDE_DIR and ${_variable}_LIBRARY.")
+  endif()
+endfunction()
+
+tetradapt_find_library(muparser libmuparser-dev HEADER muParser.h LIBRARY muparser)
+tetradapt_find_library(pugixml libpugixml-dev HEADER pugixml.hpp LIBRARY pugixml)
+tetradapt_find_library(zlib zlib1g-dev HEADER zlib.h LIBRARY z)
+tetradapt_find_library(cgal libcgal-dev HEADER CGAL/version.h)
+tetradapt_find_library(gmp libgmp-dev LIBRARY gmp)
+tetradapt_find_library(mpfr libmpfr-dev LIBRARY mpfr)
+tetradapt_find_library(tet libtet1.5-dev HEADER tetgen.h LIBRARY tet)
+
+# TetGen states 1.5 in its header; the third number is in the library's name.
+get_filename_component(_library ${TETRADAPT_TET_LIBRARY} REALPATH)
+if(_library MATCHES "\\.so\\.([0-9.]+)$")
+  set(TETRADAPT_TETGEN_VERSION ${CMAKE_MATCH_1})
+else()
+  file(STRINGS ${TETRADAPT_TET_INCLUDE_DIR}/tetgen.h _line REGEX "Version [0-9.]+" LIMIT_COUNT 1)
+  string(REGEX MATCH "[0-9][0-9.]+" TETRADAPT_TETGEN_VERSION "${_line}")
+endif()
+message(STATUS "TetGen ${TETRADAPT_TETGEN_VERSION} in ${TETRADAPT_TET_LIBRARY}")
