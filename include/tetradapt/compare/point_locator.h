@@ -32,13 +32,15 @@ namespace tetradapt::compare
     ~PointLocator();
 
     /** Where @p point lies. @p hint is a cell near it, if one is known. */
-    Location locate(const Point<3> &point,
-                    unsigned int    hint = dealii::numbers::invalid_unsigned_int) const;
+    Location
+    locate(const Point<3> &point, unsigned int hint = dealii::numbers::invalid_unsigned_int) const;
 
     /** All points, each search starting where the one before ended. */
-    std::vector<Location> locate(const std::vector<Point<3>> &points) const;
+    std::vector<Location>
+    locate(const std::vector<Point<3>> &points) const;
 
-    const mesh::TetMesh &mesh() const;
+    const mesh::TetMesh &
+    mesh() const;
 
   private:
     struct Implementation;
