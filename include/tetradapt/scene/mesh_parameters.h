@@ -13,6 +13,12 @@ namespace dealii
   class ParameterHandler;
 }
 
+/**
+ * Every struct here has three functions: declare() adds its parameters, with its
+ * present values as defaults, to the subsection that the ParameterHandler is in;
+ * parse() reads them from there; check() looks at the values and throws
+ * core::InputError "Section/Name: what is wrong and what to change".
+ */
 namespace tetradapt::scene
 {
   using dealii::Point;
@@ -52,11 +58,15 @@ namespace tetradapt::scene
     /** Wanted edge length as an expression in x, y, z; empty: none. */
     std::string size;
 
-    unsigned int n_meshes() const;
-    void         declare(dealii::ParameterHandler &prm) const;
-    void         parse(dealii::ParameterHandler &prm);
+    unsigned int
+    n_meshes() const;
+    void
+    declare(dealii::ParameterHandler &prm) const;
+    void
+    parse(dealii::ParameterHandler &prm);
     /** @throws InputError naming the parameter and the cure. */
-    void check() const;
+    void
+    check() const;
   };
 
   /** How TetGen is run. */
@@ -71,9 +81,12 @@ namespace tetradapt::scene
     double       time_limit          = 600.;  ///< seconds of wall time a call
     double       memory_limit        = 8192.; ///< MiB a call
 
-    void declare(dealii::ParameterHandler &prm) const;
-    void parse(dealii::ParameterHandler &prm);
-    void check() const;
+    void
+    declare(dealii::ParameterHandler &prm) const;
+    void
+    parse(dealii::ParameterHandler &prm);
+    void
+    check() const;
   };
 } // namespace tetradapt::scene
 

@@ -12,6 +12,12 @@ namespace dealii
   class ParameterHandler;
 }
 
+/**
+ * Every struct here has three functions: declare() adds its parameters, with its
+ * present values as defaults, to the subsection that the ParameterHandler is in;
+ * parse() reads them from there; check() looks at the values and throws
+ * core::InputError "Section/Name: what is wrong and what to change".
+ */
 namespace tetradapt::scene
 {
   /**
@@ -26,7 +32,8 @@ namespace tetradapt::scene
     std::vector<std::string> groups;
     std::string              where; ///< expression in x, y, z; empty: everywhere
 
-    bool empty() const
+    bool
+    empty() const
     {
       return ids.empty() && groups.empty() && where.empty();
     }
@@ -44,9 +51,12 @@ namespace tetradapt::scene
     double                   density           = 0.;               ///< mass per volume
     double                   thermal_expansion = 0.;               ///< strain per degree
 
-    void declare(dealii::ParameterHandler &prm) const;
-    void parse(dealii::ParameterHandler &prm);
-    void check() const;
+    void
+    declare(dealii::ParameterHandler &prm) const;
+    void
+    parse(dealii::ParameterHandler &prm);
+    void
+    check() const;
   };
 
   /** Prescribed displacement components on a part of the boundary. */
@@ -57,9 +67,12 @@ namespace tetradapt::scene
     std::array<bool, 3>        components{{true, true, true}};
     std::array<std::string, 3> displacement{{"0", "0", "0"}}; ///< in x, y, z, t
 
-    void declare(dealii::ParameterHandler &prm) const;
-    void parse(dealii::ParameterHandler &prm);
-    void check() const;
+    void
+    declare(dealii::ParameterHandler &prm) const;
+    void
+    parse(dealii::ParameterHandler &prm);
+    void
+    check() const;
   };
 
   enum class LoadType
@@ -82,9 +95,12 @@ namespace tetradapt::scene
      * pressure and temperature. */
     std::array<std::string, 3> value{{"0", "0", "0"}};
 
-    void declare(dealii::ParameterHandler &prm) const;
-    void parse(dealii::ParameterHandler &prm);
-    void check() const;
+    void
+    declare(dealii::ParameterHandler &prm) const;
+    void
+    parse(dealii::ParameterHandler &prm);
+    void
+    check() const;
   };
 
   /** What is known of the true solution; any of these may be empty. */
@@ -98,21 +114,27 @@ namespace tetradapt::scene
      * work F(u) of the loads on the displacement they cause. */
     double energy = 0.;
 
-    bool has_displacement() const
+    bool
+    has_displacement() const
     {
       return !displacement[0].empty();
     }
-    bool has_gradient() const
+    bool
+    has_gradient() const
     {
       return !gradient[0].empty();
     }
-    bool has_energy() const
+    bool
+    has_energy() const
     {
       return energy != 0.;
     }
-    void declare(dealii::ParameterHandler &prm) const;
-    void parse(dealii::ParameterHandler &prm);
-    void check() const;
+    void
+    declare(dealii::ParameterHandler &prm) const;
+    void
+    parse(dealii::ParameterHandler &prm);
+    void
+    check() const;
   };
 } // namespace tetradapt::scene
 

@@ -30,8 +30,31 @@ namespace tetradapt::scene
     AdaptivityParameters            adaptivity;
     OutputParameters                output;
 
-    /** Checks each part and how they fit together. @throws InputError. */
-    void check() const;
+    /** Where the user wrote what: from a full name such as "Loads/tip/Value" (or
+     * of a section, "Loads/tip") to "file:line" or "command line". Parameters
+     * that were left at their defaults have no entry. */
+    std::map<std::string, std::string> places;
+
+    /** Checks each part and how they fit together.
+     * @throws InputError "<full name>: <what is wrong and what to change>". */
+    void
+    check() const;
+
+    /** What is allowed but probably not meant, one message each; for a scene
+     * that check() accepts. */
+    std::vector<std::string>
+    warnings() const;
+
+    /**
+     * @p message with the place in front at which the user wrote the parameter
+     * that it starts with: "Loads/tip/Value, component x: ..." becomes
+     * "beam.prm:31: Loads/tip/Value, component x: ...". If only the section was
+     * written, its place is taken; a message that does not start with a full
+     * name comes back as it is. Messages of every room that start with a full
+     * name can be completed this way.
+     */
+    std::string
+    with_place(const std::string &message) const;
   };
 } // namespace tetradapt::scene
 

@@ -6,6 +6,12 @@
 
 #include <string>
 
+/**
+ * Every struct here has three functions: declare() adds its parameters, with its
+ * present values as defaults, to the subsection that the ParameterHandler is in;
+ * parse() reads them from there; check() looks at the values and throws
+ * core::InputError "Section/Name: what is wrong and what to change".
+ */
 namespace tetradapt::scene
 {
   struct SolverParameters
@@ -21,9 +27,12 @@ namespace tetradapt::scene
     unsigned int max_iterations = 2000;
     unsigned int direct_limit   = 2000; ///< unknowns
 
-    void declare(dealii::ParameterHandler &prm) const;
-    void parse(dealii::ParameterHandler &prm);
-    void check() const;
+    void
+    declare(dealii::ParameterHandler &prm) const;
+    void
+    parse(dealii::ParameterHandler &prm);
+    void
+    check() const;
   };
 
   /** The fine solution that others are compared with. */
@@ -55,9 +64,12 @@ namespace tetradapt::scene
     bool                        cache = true;
     std::string cache_directory; ///< default: output/cache below the working directory
 
-    void declare(dealii::ParameterHandler &prm) const;
-    void parse(dealii::ParameterHandler &prm);
-    void check() const;
+    void
+    declare(dealii::ParameterHandler &prm) const;
+    void
+    parse(dealii::ParameterHandler &prm);
+    void
+    check() const;
   };
 
   struct AdaptivityParameters
@@ -108,15 +120,18 @@ namespace tetradapt::scene
     /** Stop when the relative energy error (estimated, or true where known) is
      * below; 0: no such stop. */
     double        tolerance     = 0.;
-    double        ren_tolerance = 0.; ///< the same for the mean REN
-    unsigned int  max_cycles    = 1;
-    unsigned long max_tets      = 0; ///< 0: no limit
+    double        ren_tolerance = 0.;      ///< the same for the mean REN
+    unsigned int  max_cycles    = 5;       ///< uniform, adaptive; the first mesh counts
+    unsigned long max_tets      = 1000000; ///< 0: no limit
     unsigned long max_dofs      = 0;
     double        max_seconds   = 0.;
 
-    void declare(dealii::ParameterHandler &prm) const;
-    void parse(dealii::ParameterHandler &prm);
-    void check() const;
+    void
+    declare(dealii::ParameterHandler &prm) const;
+    void
+    parse(dealii::ParameterHandler &prm);
+    void
+    check() const;
   };
 
   struct OutputParameters
@@ -126,9 +141,12 @@ namespace tetradapt::scene
     bool        vtu    = true; ///< cycle_NNN.vtu and the .pvd
     bool        stress = true; ///< stress and von Mises in the .vtu
 
-    void declare(dealii::ParameterHandler &prm) const;
-    void parse(dealii::ParameterHandler &prm);
-    void check() const;
+    void
+    declare(dealii::ParameterHandler &prm) const;
+    void
+    parse(dealii::ParameterHandler &prm);
+    void
+    check() const;
   };
 } // namespace tetradapt::scene
 

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_scene_scene_reader_h
+#define tetradapt_scene_scene_reader_h
+
+#include "tetradapt/scene/scene.h"
+
+namespace tetradapt::scene
+{
+  /**
+   * Reads and checks a scene from a parameter file in deal.II's format
+   * (`subsection`, `end`, `set`,
+   * `include`, comments after #, lines continued by a backslash).
+   *
+   * Every parameter has a default; the blocks in Materials, Supports and Loads
+   * have names that the user chooses. A parameter may be set once in a file; what
+   * a file sets after `include` wins over the included file, and @p overrides win
+   * over both.
+   *
+   * @param file name of the file. Files that it names count from the folder of
+   *        the file that they are written in, those in @p overrides from the
+   *        working directory; the scene holds them as absolute paths.
+   * @param overrides texts "Section/Name=value" as given to --set on the command
+   *        line. Blocks must exist in the file.
+   * @return the scene, which Scene::check() has accepted.
+   * @throws InputError "file:line: <name>: <what is wrong and what to change>".
+   */
+  Scene
+  read_scene(const std::string &file, const std::vector<std::string> &overrides = {});
+} // namespace tetradapt::scene
+
+#endif

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/cli/application.h"
+
+#include "tetradapt/cli/load_scene.h"
+#include "tetradapt/cli/outcome.h"
+#include "tetradapt/cli/run_scene.h"
+#include "tetradapt/core/exceptions.h"
+#include "tetradapt/scene/plan.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <set>
+
+namespace tetradapt::cli
+{
+  namespace
+  {
+    /** Whether something like mpirun started this process, and as which rank;
+     * known without starting MPI. */
+    struct Launch
+    {
+      bool by_launcher = false;
+      bool first       = true;
+    };
+
+    Launch
+    find_launch()
+    {
+      Launch launch;
+      for (const char *name : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "PMI_ID"})
+        if (const char *rank = std::getenv(name))
+          {
+            launch.by_launcher = true;
+            launch.first       = std::string(rank) == "0";
+            return launch;
+          }
+      for (const char *name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MPI_LOCALNRANKS"})
+        launch.by_launcher = launch.by_launcher || std::getenv(name) != nullptr;
+      return launch;
+    }
+
+    /** Tells Open MPI that there is one process, which halves the time it takes to
+     * start; what the user set stays. */
+    void
+    prepare_single_process()
+    {
+      setenv("OMPI_MCA_btl", "self", 0);
+      setenv("OMPI_MCA_pml", "ob1", 0);
+      setenv("OMPI_MCA_plm", "isolated", 0);
+    }
+
+    std::string
+    quoted(const std::string &argument)
+    {
+      if (!argument.empty() && argument.find_first_of(" \t;*?<>|&()$'\"\\") == std::string::npos)
+        return argument;
+      std::string text = "'";
+      for (const char c : argument)
+        text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+      return text + "'";
+    }
+
+    std::string
+    output_folder(const scene::Scene &scene)
+    {
+      const std::string name
+        = scene.output.directory.empty() ? "output/" + scene.name : scene.output.directory;
+      return std::filesystem::weakly_canonical(name).string();
+    }
+
+    int
+    validate(const Options &options, const bool print)
+    {
+      int worst = Outcome::done;
+      for (const auto &file : options.scenes)
+        {
+          const Outcome outcome = attempt([&] {
+            const scene::Scene scene = load_scene(file, options);
+            if (!print)
+              return;
+            for (const auto &warning : scene.warnings())
+              std::cerr << "warning: " << warning << '\n';
+            if (!options.quiet)
+              std::cerr << file << ": valid\n" << scene::Plan(scene).text();
+          });
+          if (outcome.code != Outcome::done && print)
+            std::cerr << "error: " << outcome.message << '\n';
+          worst = std::max(worst, outcome.code);
+        }
+      return worst;
+    }
+
+    int
+    run(const Options &options, const RunOptions &run_options)
+    {
+      // Agreeing on an outcome must not meet the collective calls of a run.
+      MPI_Comm control;
+      MPI_Comm_dup(MPI_COMM_WORLD, &control);
+      int                   worst = Outcome::done;
+      std::set<std::string> folders;
+      for (const auto &file : options.scenes)
+        {
+          scene::Scene scene;
+          int          code = conclude(attempt([&] {
+                                scene = load_scene(file, options);
+                                if (!folders.insert(output_folder(scene)).second)
+                                  throw core::InputError(
+                                    file
+                                    + ": its results would replace those of an earlier "
+                                               "scene of this run, in "
+                                    + output_folder(scene)
+                                    + ". Set another Output/Directory, or rename the scene.");
+                              }),
+                              control);
+          if (code == Outcome::done)
+            code = conclude(attempt([&] {
+                              try
+                                {
+                                  run_scene(scene,
+                                            scene::effective_parameters(scene),
+                                            run_options,
+                                            MPI_COMM_WORLD);
+                                }
+                              catch (const core::InputError &error)
+                                {
+                                  throw core::InputError(scene.with_place(error.what()));
+                                }
+                            }),
+                            control);
+          worst = std::max(worst, code);
+        }
+      MPI_Comm_free(&control);
+      return worst;
+    }
+  } // namespace
+
+  int
+  run_application(int argc, char **argv)
+  {
+    const Launch launch = find_launch();
+    Options      options;
+    // Other ranks would only repeat what the first one says.
+    const Outcome parsed
+      = attempt([&] { options = parse_options(std::vector<std::string>(argv + 1, argv + argc)); });
+    if (parsed.code != Outcome::done)
+      {
+        if (launch.first)
+          std::cerr << "error: " << parsed.message << '\n';
+        return parsed.code;
+      }
+    switch (options.action)
+      {
+      case Options::Action::help:
+        if (launch.first)
+          std::cout << help_text();
+        return Outcome::done;
+      case Options::Action::version:
+        if (launch.first)
+          std::cout << version_text();
+        return Outcome::done;
+      case Options::Action::print_parameters:
+        if (launch.first)
+          scene::print_parameters(std::cout, options.format);
+        return Outcome::done;
+      case Options::Action::validate:
+        return validate(options, launch.first);
+      case Options::Action::run:
+        break;
+      }
+    RunOptions run_options;
+    run_options.quiet = options.quiet;
+    for (int i = 0; i < argc; ++i)
+      run_options.command_line += (i == 0 ? "" : " ") + quoted(argv[i]);
+    if (!launch.by_launcher)
+      prepare_single_process();
+    const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+    return run(options, run_options);
+  }
+} // namespace tetradapt::cli

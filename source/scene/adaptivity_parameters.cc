@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/scene/study_parameters.h"
+
+#include "binder.h"
+#include "checks.h"
+
+#include <filesystem>
+
+namespace tetradapt::scene
+{
+  namespace
+  {
+    void
+    bind_rules(AdaptivityParameters &p, Binder &binder)
+    {
+      binder("Lambda",
+             p.lambda,
+             number_codec(),
+             "maximum: marks where the error is at least this part of the largest.");
+      binder("Minimum new fraction",
+             p.min_new,
+             number_codec(),
+             "maximum: Lambda is lowered until at least this part of the tetrahedra is marked.");
+      binder("Fraction",
+             p.fraction,
+             number_codec(),
+             "fixed fraction: part of the tetrahedra to mark, those with the largest errors.");
+      binder("Theta",
+             p.theta,
+             number_codec(),
+             "doerfler: part of the squared error that the marked tetrahedra hold.");
+      binder("Reduction",
+             p.reduction,
+             number_codec(),
+             "maximum, fixed fraction, doerfler: new edge length of a marked tetrahedron over "
+             "its old one.");
+      binder("Growth",
+             p.growth,
+             number_codec(),
+             "optimal size: tetrahedra of the next mesh over those of this one.");
+      binder("Minimum ratio",
+             p.min_ratio,
+             number_codec(),
+             "Smallest new edge length over the old one in one cycle.");
+      binder("Maximum ratio", p.max_ratio, number_codec(), "Largest such ratio.");
+      binder("Minimum size", p.min_size, number_codec(), "Smallest edge length; 0: none.");
+      binder("Maximum size", p.max_size, number_codec(), "Largest edge length; 0: none.");
+      binder("Gradation",
+             p.gradation,
+             number_codec(),
+             "Most by which the edge length may grow over a distance of one.");
+    }
+
+    void
+    bind(AdaptivityParameters &p, Binder &binder)
+    {
+      binder("Strategy",
+             p.strategy,
+             word_codec<AdaptivityParameters::Strategy>(),
+             "none: one mesh. mesh list: one cycle for each mesh that Mesh lists. uniform: every "
+             "tetrahedron cut into 8 each cycle. adaptive: refined where the error is.");
+      binder("Driver",
+             p.driver,
+             word_codec<AdaptivityParameters::Driver>(),
+             "adaptive: which error drives the refinement: the energy norm of the difference to "
+             "the reference, the relative nodal error REN, or the true error in the energy norm "
+             "(needs Truth/Displacement).");
+      binder("Marking",
+             p.marking,
+             word_codec<AdaptivityParameters::Marking>(),
+             "adaptive: how new sizes follow from errors: by marking tetrahedra, or (optimal "
+             "size) by spreading the error evenly over a given number of tetrahedra.");
+      binder("Route",
+             p.route,
+             word_codec<AdaptivityParameters::Route>(),
+             "adaptive: how TetGen is told: an edge length at every node, or a largest volume "
+             "for every tetrahedron.");
+      bind_rules(p, binder);
+      binder("Tolerance",
+             p.tolerance,
+             number_codec(),
+             "Stop when the relative error in the energy norm is below; 0: no such stop.");
+      binder("REN tolerance",
+             p.ren_tolerance,
+             number_codec(),
+             "Stop when the mean REN is below; 0: no such stop.");
+      binder("Maximum cycles",
+             p.max_cycles,
+             count_codec(),
+             "uniform, adaptive: stop after this many cycles, the first mesh included.");
+      binder("Maximum tetrahedra",
+             p.max_tets,
+             long_count_codec(),
+             "No mesh larger than that; 0: no limit.");
+      binder("Maximum unknowns",
+             p.max_dofs,
+             long_count_codec(),
+             "No system larger than that; 0: no limit.");
+      binder("Maximum seconds",
+             p.max_seconds,
+             number_codec(),
+             "No new cycle after that time; 0: no limit.");
+    }
+
+    void
+    bind(OutputParameters &p, Binder &binder)
+    {
+      binder("Directory",
+             p.directory,
+             text_codec("the name of a folder"),
+             "Where results go; empty: output/ and the scene's name, below the working "
+             "directory.");
+      binder("Tables", p.tables, yes_no_codec(), "Write convergence.csv and convergence.txt.");
+      binder("VTU", p.vtu, yes_no_codec(), "Write a .vtu file per cycle and the .pvd.");
+      binder("Stress", p.stress, yes_no_codec(), "Stress and von Mises stress in the .vtu.");
+    }
+
+    void
+    check_fraction(const double value, const std::string &name)
+    {
+      require(value > 0. && value <= 1.,
+              "Adaptivity/" + name,
+              "must be larger than 0 and at most 1, not " + text_of(value) + ".");
+    }
+
+    void
+    check_not_negative(const double value, const std::string &name, const std::string &zero)
+    {
+      require(value >= 0.,
+              "Adaptivity/" + name,
+              "must be positive, or 0 for " + zero + "; it is " + text_of(value) + ".");
+    }
+  } // namespace
+
+  void
+  AdaptivityParameters::declare(dealii::ParameterHandler &prm) const
+  {
+    declare_bound(*this, prm, bind);
+  }
+
+  void
+  AdaptivityParameters::parse(dealii::ParameterHandler &prm)
+  {
+    parse_bound(*this, prm, bind);
+  }
+
+  void
+  AdaptivityParameters::check() const
+  {
+    check_fraction(lambda, "Lambda");
+    check_fraction(fraction, "Fraction");
+    check_fraction(theta, "Theta");
+    check_fraction(min_ratio, "Minimum ratio");
+    require(min_new >= 0. && min_new <= 1.,
+            "Adaptivity/Minimum new fraction",
+            "must be between 0 and 1, not " + text_of(min_new) + ".");
+    require(reduction > 0. && reduction < 1.,
+            "Adaptivity/Reduction",
+            "must be between 0 and 1: a marked tetrahedron becomes smaller; it is "
+              + text_of(reduction) + ".");
+    require(growth > 1.,
+            "Adaptivity/Growth",
+            "must be larger than 1: the next mesh has more tetrahedra; it is " + text_of(growth)
+              + ".");
+    require(max_ratio >= 1.,
+            "Adaptivity/Maximum ratio",
+            "must be at least 1; it is " + text_of(max_ratio) + ".");
+    check_not_negative(min_size, "Minimum size", "none");
+    check_not_negative(max_size, "Maximum size", "none");
+    require(max_size == 0. || min_size <= max_size,
+            "Adaptivity/Minimum size",
+            text_of(min_size) + " is larger than Maximum size, " + text_of(max_size) + ".");
+    require(gradation > 0.,
+            "Adaptivity/Gradation",
+            "must be positive; 0.2 to 0.4 is usual, and large values allow any jump.");
+    check_not_negative(tolerance, "Tolerance", "no such stop");
+    require(tolerance < 1.,
+            "Adaptivity/Tolerance",
+            "is a relative error: it must be smaller than 1, such as 0.05.");
+    check_not_negative(ren_tolerance, "REN tolerance", "no such stop");
+    require(max_cycles > 0, "Adaptivity/Maximum cycles", "must be at least 1.");
+    check_not_negative(max_seconds, "Maximum seconds", "no limit");
+  }
+
+  void
+  OutputParameters::declare(dealii::ParameterHandler &prm) const
+  {
+    declare_bound(*this, prm, bind);
+  }
+
+  void
+  OutputParameters::parse(dealii::ParameterHandler &prm)
+  {
+    parse_bound(*this, prm, bind);
+  }
+
+  void
+  OutputParameters::check() const
+  {
+    std::error_code error;
+    require(directory.empty() || !std::filesystem::is_regular_file(directory, error),
+            "Output/Directory",
+            "'" + directory + "' is a file. Give the name of a folder; it is made if needed.");
+  }
+} // namespace tetradapt::scene

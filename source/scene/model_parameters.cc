@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/scene/model_parameters.h"
+
+#include "binder.h"
+#include "checks.h"
+
+#include <algorithm>
+
+namespace tetradapt::scene
+{
+  namespace
+  {
+    const char *region_note = "Both lists empty: ";
+
+    void
+    bind(MaterialParameters &p, Binder &binder)
+    {
+      binder("Law", p.law, text_codec("the name of a law"), "Constitutive law.");
+      binder("Regions",
+             p.regions,
+             ids_codec(),
+             std::string("Ids of the regions that it fills. ") + region_note
+               + "all that no other material names.");
+      binder("Region groups",
+             p.region_groups,
+             names_codec(),
+             "Names of regions that it fills, where the mesh file has names.");
+      binder("Young modulus",
+             p.young_modulus,
+             number_codec(),
+             "E, in the unit of pressure that the loads have.");
+      binder("Poisson ratio", p.poisson_ratio, number_codec(), "nu, between -1 and 0.5.");
+      binder("Density", p.density, number_codec(), "Mass per volume; used by gravity.");
+      binder("Thermal expansion",
+             p.thermal_expansion,
+             number_codec(),
+             "Strain per degree; used by temperature.");
+    }
+
+    void
+    bind_faces(Selector &selector, Binder &binder)
+    {
+      binder("Boundary ids",
+             selector.ids,
+             ids_codec(),
+             "Boundary ids of the faces that it holds on.");
+      binder("Groups",
+             selector.groups,
+             names_codec(),
+             "Names of such groups of faces, for a box: x-min, x-max, y-min, ... A face counts "
+             "if its id or its group is listed, or if neither list is given.");
+      binder("Where",
+             selector.where,
+             text_codec("an expression in x, y, z, or nothing"),
+             "Expression in x, y, z that must hold besides, at the corners and the centre of a "
+             "face, such as x < 1e-9.");
+    }
+
+    void
+    bind(SupportParameters &p, Binder &binder)
+    {
+      bind_faces(p.selector, binder);
+      binder("Components",
+             p.components,
+             components_codec(),
+             "Components of the displacement that are prescribed: all, or some of x, y, z.");
+      binder("Displacement",
+             p.displacement,
+             expressions_codec<3>(false),
+             "Prescribed displacement: three expressions in x, y, z, t, separated by semicolons.");
+    }
+
+    bool
+    acts_on_faces(const LoadType type)
+    {
+      return type == LoadType::traction || type == LoadType::pressure;
+    }
+
+    bool
+    is_scalar(const LoadType type)
+    {
+      return type == LoadType::pressure || type == LoadType::temperature;
+    }
+
+    void
+    bind(LoadParameters &p, Binder &binder)
+    {
+      binder("Type",
+             p.type,
+             word_codec<LoadType>(),
+             "traction: force per area; pressure: force per area against the outer normal; body "
+             "force: force per volume; gravity: an acceleration, times the density; "
+             "temperature: its change, which causes thermal strain.");
+      const bool  on_faces = acts_on_faces(p.type);
+      Selector    faces    = on_faces ? p.selector : Selector();
+      Selector    regions  = on_faces ? Selector() : p.selector;
+      std::string where    = on_faces ? "" : p.selector.where;
+      bind_faces(faces, binder);
+      binder("Regions",
+             regions.ids,
+             ids_codec(),
+             std::string("body force, gravity, temperature: ids of regions. ") + region_note
+               + "everywhere.");
+      binder("Region groups",
+             regions.groups,
+             names_codec(),
+             "body force, gravity, temperature: names of regions.");
+
+      std::vector<std::string> values(p.value.begin(), p.value.end());
+      if (is_scalar(p.type))
+        values.resize(1);
+      binder("Value",
+             values,
+             value_codec(),
+             "Expressions in x, y, z, t: three separated by semicolons for a vector, one for a "
+             "pressure or a temperature.");
+      if (!binder.parsing())
+        return;
+
+      // The type was read above, so that only now its lists are known.
+      const std::string path = "Loads/" + p.name + "/";
+      if (acts_on_faces(p.type))
+        {
+          require(regions.empty(),
+                  path + (regions.ids.empty() ? "Region groups" : "Regions"),
+                  "a " + word(p.type)
+                    + " acts on faces: choose them by Boundary ids, Groups or Where.");
+          p.selector = faces;
+        }
+      else
+        {
+          require(faces.empty(),
+                  path
+                    + (!faces.ids.empty()      ? "Boundary ids"
+                       : !faces.groups.empty() ? "Groups"
+                                               : "Where"),
+                  "a " + word(p.type)
+                    + " acts on the volume: choose it by Regions or Region groups, or make the "
+                      "value depend on x, y, z with if(condition, value, 0).");
+          p.selector = regions;
+        }
+      const bool        untouched = values == std::vector<std::string>{"0", "0", "0"};
+      const std::size_t wanted    = is_scalar(p.type) ? 1 : 3;
+      require(values.size() == wanted || untouched,
+              path + "Value",
+              "a " + word(p.type) + " needs "
+                + (wanted == 1 ? "one expression" : "three expressions separated by semicolons")
+                + ", not " + std::to_string(values.size()) + ".");
+      p.value.fill("0");
+      std::copy(values.begin(), values.end(), p.value.begin());
+    }
+
+    void
+    bind(TruthParameters &p, Binder &binder)
+    {
+      binder("Displacement",
+             p.displacement,
+             expressions_codec<3>(true),
+             "Exact displacement: three expressions in x, y, z, separated by semicolons; empty: "
+             "unknown.");
+      binder("Gradient",
+             p.gradient,
+             expressions_codec<9>(true),
+             "Its derivatives du_x/dx; du_x/dy; du_x/dz; du_y/dx; ...; empty: by differences.");
+      binder("Energy",
+             p.energy,
+             number_codec(),
+             "Known a(u,u), the integral of strain : C : strain, which is twice the strain "
+             "energy and the work of the loads; 0: unknown.");
+    }
+
+    void
+    check_selector(const Selector &selector, const std::string &path)
+    {
+      if (selector.where.empty())
+        return;
+      double value;
+      require(!constant_value(selector.where, path + "/Where", value) || value != 0.,
+              path + "/Where",
+              "'" + selector.where + "' holds nowhere. Give a condition such as x < 1e-9.");
+    }
+  } // namespace
+
+  void
+  MaterialParameters::declare(dealii::ParameterHandler &prm) const
+  {
+    declare_bound(*this, prm, bind);
+  }
+
+  void
+  MaterialParameters::parse(dealii::ParameterHandler &prm)
+  {
+    parse_bound(*this, prm, bind);
+  }
+
+  void
+  MaterialParameters::check() const
+  {
+    const std::string path = "Materials/" + name + "/";
+    require(!law.empty(), path + "Law", "give the name of a law, such as linear elastic.");
+    require(young_modulus > 0.,
+            path + "Young modulus",
+            "must be positive, not " + text_of(young_modulus) + ".");
+    require(poisson_ratio > -1. && poisson_ratio < 0.5,
+            path + "Poisson ratio",
+            "must be larger than -1 and smaller than 0.5, not " + text_of(poisson_ratio)
+              + (poisson_ratio >= 0.5 && poisson_ratio < 0.51
+                   ? ". An incompressible material needs 0.49 to 0.499 here."
+                   : "."));
+    require(density >= 0.,
+            path + "Density",
+            "must not be negative; it is " + text_of(density) + ".");
+  }
+
+  void
+  SupportParameters::declare(dealii::ParameterHandler &prm) const
+  {
+    declare_bound(*this, prm, bind);
+  }
+
+  void
+  SupportParameters::parse(dealii::ParameterHandler &prm)
+  {
+    parse_bound(*this, prm, bind);
+  }
+
+  void
+  SupportParameters::check() const
+  {
+    const std::string path = "Supports/" + name;
+    check_selector(selector, path);
+    require(components[0] || components[1] || components[2],
+            path + "/Components",
+            "name at least one of x, y, z, or all.");
+    for (unsigned int c = 0; c < 3; ++c)
+      {
+        const std::string letter(1, "xyz"[c]);
+        const std::string what = path + "/Displacement, component " + letter;
+        double            value;
+        const bool        constant = constant_value(displacement[c], what, value);
+        require(components[c] || (constant && value == 0.),
+                path + "/Displacement",
+                "it prescribes the component " + letter + " ('" + displacement[c]
+                  + "'), which Components leaves free. Add " + letter
+                  + " to Components, or write 0 for it.");
+      }
+  }
+
+  void
+  LoadParameters::declare(dealii::ParameterHandler &prm) const
+  {
+    declare_bound(*this, prm, bind);
+  }
+
+  void
+  LoadParameters::parse(dealii::ParameterHandler &prm)
+  {
+    parse_bound(*this, prm, bind);
+  }
+
+  void
+  LoadParameters::check() const
+  {
+    const std::string path = "Loads/" + name;
+    check_selector(selector, path);
+    for (unsigned int c = 0; c < (is_scalar(type) ? 1u : 3u); ++c)
+      check_expression(value[c],
+                       path + "/Value"
+                         + (is_scalar(type) ? "" : std::string(", component ") + "xyz"[c]));
+  }
+
+  void
+  TruthParameters::declare(dealii::ParameterHandler &prm) const
+  {
+    declare_bound(*this, prm, bind);
+  }
+
+  void
+  TruthParameters::parse(dealii::ParameterHandler &prm)
+  {
+    parse_bound(*this, prm, bind);
+  }
+
+  void
+  TruthParameters::check() const
+  {
+    if (has_displacement())
+      for (unsigned int c = 0; c < 3; ++c)
+        check_expression(displacement[c], std::string("Truth/Displacement, component ") + "xyz"[c]);
+    require(has_displacement() || !has_gradient(),
+            "Truth/Gradient",
+            "the gradient of an unknown displacement. Give Truth/Displacement too.");
+    if (has_gradient())
+      for (unsigned int i = 0; i < 9; ++i)
+        check_expression(gradient[i],
+                         std::string("Truth/Gradient, du_") + "xyz"[i / 3] + "/d" + "xyz"[i % 3]);
+    require(energy >= 0.,
+            "Truth/Energy",
+            "must be positive, or 0 if it is unknown; it is " + text_of(energy) + ".");
+  }
+} // namespace tetradapt::scene

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/scene/plan.h"
+
+#include "scene_checks.h"
+#include "values.h"
+
+#include "tetradapt/scene/words.h"
+
+#include <algorithm>
+
+namespace tetradapt::scene
+{
+  namespace
+  {
+    using Driver    = AdaptivityParameters::Driver;
+    using Marking   = AdaptivityParameters::Marking;
+    using Strategy  = AdaptivityParameters::Strategy;
+    using Route     = ReferenceParameters::MeshRoute;
+    using Reference = ReferenceParameters::Type;
+    using Solver    = SolverParameters::Type;
+
+    bool
+    is_adaptive(const Scene &scene)
+    {
+      return scene.adaptivity.strategy == Strategy::adaptive;
+    }
+
+    bool
+    is_driven_by(const Scene &scene, const Driver driver)
+    {
+      return is_adaptive(scene) && scene.adaptivity.driver == driver;
+    }
+
+    /** Who uses the difference to the reference in the energy norm; empty: nobody. */
+    std::string
+    user_of_extrapolation(const Scene &scene)
+    {
+      if (is_driven_by(scene, Driver::energy))
+        return "drives the refinement";
+      if (scene.adaptivity.tolerance > 0. && !scene.truth.has_displacement()
+          && !scene.truth.has_energy())
+        return "Adaptivity/Tolerance is measured with it";
+      if (scene.output.tables)
+        return "columns of the tables";
+      return "";
+    }
+
+    std::string
+    user_of_ren(const Scene &scene)
+    {
+      if (is_driven_by(scene, Driver::ren))
+        return "drives the refinement";
+      if (scene.adaptivity.ren_tolerance > 0.)
+        return "Adaptivity/REN tolerance is measured with it";
+      if (scene.output.tables)
+        return "columns of the tables";
+      if (scene.output.vtu)
+        return "a field of the .vtu files";
+      return "";
+    }
+
+    std::string
+    user_of_reference(const Scene &scene)
+    {
+      if (!user_of_extrapolation(scene).empty())
+        return user_of_extrapolation(scene);
+      return scene.truth.has_displacement() ? "" : user_of_ren(scene);
+    }
+
+    std::string
+    user_of_truth(const Scene &scene, const bool drives)
+    {
+      if (drives && is_driven_by(scene, Driver::exact))
+        return "drives the refinement";
+      if (scene.adaptivity.tolerance > 0.)
+        return "Adaptivity/Tolerance is measured with it";
+      return scene.output.tables ? "columns of the tables" : "";
+    }
+
+    bool
+    has_initial_sizes(const Scene &scene)
+    {
+      return !scene.mesh.size.empty()
+             || std::any_of(scene.mesh.volume_bounds.begin(),
+                            scene.mesh.volume_bounds.end(),
+                            [](const double bound) { return bound > 0.; });
+    }
+
+    const char *nothing_uses_it
+      = "nothing uses it: it drives nothing, no stop is measured with it, and tables are off";
+  } // namespace
+
+  Plan::Plan(const Scene &scene)
+  {
+    add_mesh_stages(scene);
+    add_solver_stages(scene);
+    add_reference_stages(scene);
+    add_error_stages(scene);
+    add_adaptivity_stages(scene);
+    add_output_stages(scene);
+  }
+
+  void
+  Plan::add(const StageId      id,
+            const std::string &name,
+            const bool         needed,
+            const std::string &reason_if_needed,
+            const std::string &reason_if_not)
+  {
+    stages.push_back({id, name, needed, needed ? reason_if_needed : reason_if_not});
+  }
+
+  void
+  Plan::add_mesh_stages(const Scene &scene)
+  {
+    const MeshSource  source = scene.mesh.source;
+    const std::string type   = "Mesh/Type = " + word(source);
+    const bool        remesh = source == MeshSource::surface && scene.mesh.surface_edge_length > 0.;
+    add(surface_screening, "surface screening", source == MeshSource::surface, type, type);
+    add(surface_remeshing,
+        "surface remeshing",
+        remesh,
+        "to edges of length " + text_of(scene.mesh.surface_edge_length),
+        source == MeshSource::surface ? "Mesh/Surface edge length = 0" : type);
+    add(volume_mesh_file, "volume mesh file", source == MeshSource::file, type, type);
+    add(brick_meshing, "bricks", source == MeshSource::bricks, type, type);
+    add(tetgen_meshing,
+        "TetGen meshing",
+        source == MeshSource::box || source == MeshSource::surface,
+        type,
+        "the mesh is given: " + type);
+    const bool refine = source == MeshSource::file && has_initial_sizes(scene);
+    add(initial_refinement,
+        "initial refinement by TetGen",
+        refine,
+        "the mesh file shall be refined to Mesh/Volume bound or Size",
+        source == MeshSource::file ? "neither Volume bound nor Size is set in Mesh" : type);
+  }
+
+  void
+  Plan::add_solver_stages(const Scene &scene)
+  {
+    bool has_temperature = false, expands = false;
+    for (const auto &load : scene.loads)
+      if (load.type == LoadType::temperature)
+        {
+          has_temperature = true;
+          expands         = expands || any_material(scene, load, [](const auto &material) {
+                      return material.thermal_expansion != 0.;
+                    });
+        }
+    add(thermal_strain,
+        "thermal strain",
+        expands,
+        "a temperature acts on a material that expands",
+        has_temperature ? "no material with a temperature expands" : "no load is a temperature");
+
+    const Solver      type  = scene.solver.type;
+    const std::string limit = std::to_string(scene.solver.direct_limit) + " unknowns";
+    const std::string given = "Solver/Type = " + word(type);
+    add(multigrid_solver,
+        "multigrid solver",
+        type != Solver::direct,
+        type == Solver::cg ? given : "systems of more than " + limit,
+        given);
+    const bool direct
+      = type == Solver::direct || (type == Solver::automatic && scene.solver.direct_limit > 0);
+    add(direct_solver,
+        "direct solver",
+        direct,
+        type == Solver::direct ? given : "systems of at most " + limit,
+        type == Solver::cg ? given : "Solver/Direct limit = 0");
+  }
+
+  void
+  Plan::add_reference_stages(const Scene &scene)
+  {
+    const auto       &reference = scene.reference;
+    const std::string user      = user_of_reference(scene);
+    const bool        used      = !user.empty() && reference.type != Reference::none;
+    const bool        solved    = used && reference.type == Reference::fine_mesh;
+    const bool        refined   = solved && reference.route == Route::refine;
+    const std::string type      = "Reference/Type = " + word(reference.type);
+    const std::string absent
+      = user.empty() && reference.type != Reference::none ? nothing_uses_it : type;
+    add(reference_mesh,
+        "reference mesh",
+        solved,
+        "Reference/Mesh = " + word(reference.route) + ", if it is not in the cache",
+        absent);
+    add(reference_refinement,
+        "reference refinement by TetGen",
+        refined,
+        "the first mesh is refined to Reference/Volume bound or Size",
+        solved ? "Reference/Mesh = " + word(reference.route) : absent);
+    add(reference_solution, "reference solution", solved, user, absent);
+    add(reference_file,
+        "reference from a file",
+        used && reference.type == Reference::run,
+        user,
+        absent);
+    add(reference_cache,
+        "reference cache",
+        solved && reference.cache,
+        "Reference/Cache = yes",
+        solved ? "Reference/Cache = no" : absent);
+    add(reference_error,
+        "reference's own error",
+        used,
+        "stated beside every error that is measured with it",
+        absent);
+  }
+
+  void
+  Plan::add_error_stages(const Scene &scene)
+  {
+    const bool        reference   = uses_reference();
+    const bool        exact       = scene.truth.has_displacement();
+    const std::string energy_user = user_of_extrapolation(scene);
+    const std::string ren_user    = user_of_ren(scene);
+    const std::string truth_user  = user_of_truth(scene, true);
+    const std::string known_user  = user_of_truth(scene, false);
+    add(extrapolation,
+        "difference to the reference",
+        reference && !energy_user.empty(),
+        energy_user,
+        reference ? nothing_uses_it : "no reference is used");
+    add(nodal_ren,
+        "relative nodal error REN",
+        (reference || exact) && !ren_user.empty(),
+        ren_user,
+        reference || exact ? nothing_uses_it : "neither a reference nor an exact displacement");
+    add(exact_comparison,
+        "difference to the exact solution",
+        exact && !truth_user.empty(),
+        truth_user,
+        exact ? nothing_uses_it : "no Truth/Displacement is given");
+    add(known_energy,
+        "error from the known energy",
+        scene.truth.has_energy() && !known_user.empty(),
+        known_user,
+        scene.truth.has_energy() ? nothing_uses_it : "no Truth/Energy is given");
+  }
+
+  void
+  Plan::add_adaptivity_stages(const Scene &scene)
+  {
+    const auto       &adapt    = scene.adaptivity;
+    const std::string strategy = "Adaptivity/Strategy = " + word(adapt.strategy);
+    const std::string rule     = "Adaptivity/Marking = " + word(adapt.marking);
+    // One cycle ends before anything is refined.
+    const bool        refines  = adapt.max_cycles > 1;
+    const bool        adaptive = is_adaptive(scene) && refines;
+    const bool        uniform  = adapt.strategy == Strategy::uniform && refines;
+    const std::string reason
+      = !refines && (is_adaptive(scene) || adapt.strategy == Strategy::uniform)
+          ? "Adaptivity/Maximum cycles = 1"
+          : strategy;
+    add(marking,
+        "marking",
+        adaptive && adapt.marking != Marking::optimal_size,
+        rule,
+        adaptive ? rule : reason);
+    add(sizing, "size field", adaptive, rule, reason);
+    add(tetgen_refinement,
+        "TetGen refinement",
+        adaptive,
+        "Adaptivity/Route = " + word(adapt.route),
+        reason);
+    add(uniform_refinement, "uniform refinement", uniform, strategy, reason);
+  }
+
+  void
+  Plan::add_output_stages(const Scene &scene)
+  {
+    const auto       &output = scene.output;
+    const std::string no_vtu = "Output/VTU = no";
+    add(stress_recovery,
+        "stresses for output",
+        output.vtu && output.stress,
+        "Output/Stress = yes",
+        output.vtu ? "Output/Stress = no" : no_vtu);
+    add(vtu_output, ".vtu output", output.vtu, "Output/VTU = yes", no_vtu);
+    add(tables, "tables", output.tables, "Output/Tables = yes", "Output/Tables = no");
+  }
+
+  std::string
+  Plan::text() const
+  {
+    std::size_t width = 0;
+    for (const auto &stage : stages)
+      width = std::max(width, stage.name.size());
+    std::string text;
+    for (const bool needed : {true, false})
+      {
+        text += needed ? "needs\n" : "skips\n";
+        for (const auto &stage : stages)
+          if (stage.needed == needed)
+            text += "  " + stage.name + std::string(width - stage.name.size() + 2, ' ')
+                    + stage.reason + '\n';
+      }
+    return text;
+  }
+} // namespace tetradapt::scene

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/scene/scene.h"
+
+#include "tetradapt/scene/words.h"
+
+#include "checks.h"
+#include "scene_checks.h"
+#include "values.h"
+
+#include <algorithm>
+#include <set>
+
+namespace tetradapt::scene
+{
+  namespace
+  {
+    void
+    check_materials(const Scene &scene)
+    {
+      require(!scene.materials.empty(),
+              "Materials",
+              "the scene has no material. Add one, such as: subsection Materials, subsection "
+              "tissue, set Young modulus = 1000, end, end.");
+      std::map<int, std::string>         owner_of_region;
+      std::map<std::string, std::string> owner_of_group;
+      std::string                        owner_of_rest;
+      for (const auto &material : scene.materials)
+        {
+          material.check();
+          const std::string path = "Materials/" + material.name;
+          for (const int region : material.regions)
+            {
+              const auto [entry, is_new] = owner_of_region.emplace(region, material.name);
+              require(is_new,
+                      path + "/Regions",
+                      "region " + std::to_string(region) + " already belongs to the material '"
+                        + entry->second + "'. Name it once.");
+            }
+          for (const auto &group : material.region_groups)
+            {
+              const auto [entry, is_new] = owner_of_group.emplace(group, material.name);
+              require(is_new,
+                      path + "/Region groups",
+                      "'" + group + "' already belongs to the material '" + entry->second
+                        + "'. Name it once.");
+            }
+          if (material.regions.empty() && material.region_groups.empty())
+            {
+              require(owner_of_rest.empty(),
+                      path,
+                      "neither this material nor '" + owner_of_rest
+                        + "' names regions, so that both would fill all others. Set Regions or "
+                          "Region groups in one of them.");
+              owner_of_rest = material.name;
+            }
+        }
+    }
+
+    void
+    check_supports(const Scene &scene)
+    {
+      require(!scene.supports.empty(),
+              "Supports",
+              "the scene has no support, so that the body can move freely. Add one, such as: "
+              "subsection Supports, subsection foot, set Where = z < 1e-9, end, end.");
+      std::array<bool, 3> held{{false, false, false}};
+      for (const auto &support : scene.supports)
+        {
+          support.check();
+          for (unsigned int c = 0; c < 3; ++c)
+            held[c] = held[c] || support.components[c];
+        }
+      for (unsigned int c = 0; c < 3; ++c)
+        require(held[c],
+                "Supports",
+                std::string("no support holds the component ") + "xyz"[c]
+                  + ", so that the body can move freely in this direction. Add " + "xyz"[c]
+                  + " to the Components of a support.");
+      for (std::size_t i = 0; i < scene.supports.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+          check_compatible(scene.supports[j], scene.supports[i]);
+    }
+
+    void
+    check_loads(const Scene &scene)
+    {
+      for (const auto &load : scene.loads)
+        {
+          load.check();
+          if (load.type == LoadType::gravity)
+            require(any_material(scene,
+                                 load,
+                                 [](const MaterialParameters &m) { return m.density > 0.; }),
+                    "Loads/" + load.name + "/Type",
+                    "gravity needs a density, and that of every material it acts on is 0. Set "
+                    "Density in Materials/"
+                      + scene.materials[0].name + ".");
+        }
+      bool anything = false;
+      for (const auto &load : scene.loads)
+        anything = anything || !all_zero(load.value);
+      for (const auto &support : scene.supports)
+        anything = anything || !all_zero(support.displacement);
+      require(anything,
+              "Loads",
+              "nothing deforms the body: there is no load with a value and no prescribed "
+              "displacement other than 0. Add a load, such as: subsection Loads, subsection "
+              "tip, set Where = x > 9.9, set Value = 0; 0; -1, end, end.");
+    }
+
+    void
+    check_reference(const Scene &scene)
+    {
+      scene.reference.check();
+      using Reference = ReferenceParameters;
+      require(scene.reference.type != Reference::Type::fine_mesh
+                || scene.reference.route != Reference::MeshRoute::bricks
+                || scene.mesh.source == MeshSource::box || scene.mesh.source == MeshSource::bricks,
+              "Reference/Mesh",
+              "bricks fill a box only, but the scene's mesh is a " + word(scene.mesh.source)
+                + ". Use Mesh = refine or file.");
+    }
+
+    void
+    check_strategy(const Scene &scene)
+    {
+      using Adaptivity    = AdaptivityParameters;
+      const auto &adapt   = scene.adaptivity;
+      const bool  has_u   = scene.truth.has_displacement();
+      const bool  has_ref = scene.reference.type != ReferenceParameters::Type::none;
+      adapt.check();
+      if (adapt.strategy == Adaptivity::Strategy::mesh_list)
+        require(scene.mesh.n_meshes() > 1,
+                "Adaptivity/Strategy",
+                "a mesh list needs several meshes: give several Cells, Files or volume bounds "
+                "in Mesh, or use Strategy = none.");
+      else
+        require(scene.mesh.n_meshes() == 1,
+                "Adaptivity/Strategy",
+                "Mesh lists " + std::to_string(scene.mesh.n_meshes())
+                  + " meshes, which only Strategy = mesh list uses. Set that, or list one mesh.");
+      if (adapt.strategy == Adaptivity::Strategy::adaptive)
+        {
+          require(adapt.driver != Adaptivity::Driver::energy || has_ref,
+                  "Adaptivity/Driver",
+                  "energy compares with a reference, and there is none. Set Reference/Type = "
+                  "fine mesh, or use Driver = exact with a Truth/Displacement.");
+          require(adapt.driver != Adaptivity::Driver::ren || has_ref || has_u,
+                  "Adaptivity/Driver",
+                  "ren compares with a reference or an exact displacement, and there is "
+                  "neither. Set Reference/Type = fine mesh or give Truth/Displacement.");
+          require(adapt.driver != Adaptivity::Driver::exact || has_u,
+                  "Adaptivity/Driver",
+                  "exact needs the exact displacement. Give Truth/Displacement, or use Driver = "
+                  "energy with a reference.");
+          require(!scene.tetgen.keep_boundary,
+                  "TetGen/Keep boundary",
+                  "adaptive refinement stalls without new points on the boundary. Set it to no.");
+        }
+      require(adapt.tolerance == 0. || has_ref || has_u || scene.truth.has_energy(),
+              "Adaptivity/Tolerance",
+              "the error cannot be measured: there is no reference and no truth. Set "
+              "Reference/Type = fine mesh, give Truth/Energy or Truth/Displacement, or remove "
+              "this.");
+      require(adapt.ren_tolerance == 0. || has_ref || has_u,
+              "Adaptivity/REN tolerance",
+              "REN cannot be measured: there is no reference and no exact displacement. Set "
+              "Reference/Type = fine mesh, or remove this.");
+    }
+  } // namespace
+
+  void
+  Scene::check() const
+  {
+    require(degree == 1 || degree == 2,
+            "Degree",
+            "must be 1 (linear) or 2 (quadratic tetrahedra), not " + std::to_string(degree) + ".");
+    mesh.check();
+    tetgen.check();
+    check_materials(*this);
+    check_supports(*this);
+    truth.check();
+    check_loads(*this);
+    solver.check();
+    check_reference(*this);
+    check_strategy(*this);
+    output.check();
+    check_truth_gradient(*this);
+  }
+
+  std::string
+  Scene::with_place(const std::string &message) const
+  {
+    std::size_t longest = 0;
+    std::string place;
+    for (const auto &[name, where] : places)
+      if (name.size() > longest && message.compare(0, name.size(), name) == 0)
+        {
+          // A word that happens to be a section's name is none: "Mesh files are ...".
+          const char *ends = name.find('/') == std::string::npos ? ":,/" : ":,/ ";
+          if (message.find_first_of(ends, name.size()) == name.size())
+            {
+              longest = name.size();
+              place   = where;
+            }
+        }
+    return longest > 0 ? place + ": " + message : message;
+  }
+} // namespace tetradapt::scene

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "scene_checks.h"
+
+#include "checks.h"
+#include "values.h"
+
+#include "tetradapt/core/expression.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tetradapt::scene
+{
+  bool
+  all_zero(const std::array<std::string, 3> &expressions)
+  {
+    for (const auto &text : expressions)
+      {
+        double value;
+        if (!constant_value(text, "value", value) || value != 0.)
+          return false;
+      }
+    return true;
+  }
+
+  bool
+  any_material(const Scene                                           &scene,
+               const LoadParameters                                  &load,
+               const std::function<bool(const MaterialParameters &)> &property)
+  {
+    for (const auto &material : scene.materials)
+      {
+        // Whether one of the lists is empty, or they share an element.
+        bool acts
+          = load.selector.empty() || (material.regions.empty() && material.region_groups.empty());
+        for (const int id : load.selector.ids)
+          acts = acts || !material.region_groups.empty()
+                 || std::count(material.regions.begin(), material.regions.end(), id) > 0;
+        for (const auto &group : load.selector.groups)
+          acts = acts || !material.regions.empty()
+                 || std::count(material.region_groups.begin(), material.region_groups.end(), group)
+                      > 0;
+        if (acts && property(material))
+          return true;
+      }
+    return false;
+  }
+
+  void
+  check_compatible(const SupportParameters &first, const SupportParameters &second)
+  {
+    if (first.selector.ids != second.selector.ids || first.selector.groups != second.selector.groups
+        || first.selector.where != second.selector.where)
+      return;
+    for (unsigned int c = 0; c < 3; ++c)
+      if (first.components[c] && second.components[c])
+        require(first.displacement[c] == second.displacement[c],
+                "Supports/" + second.name + "/Displacement",
+                std::string("it prescribes the component ") + "xyz"[c]
+                  + " on the same faces as the support '" + first.name + "', but to '"
+                  + second.displacement[c] + "' instead of '" + first.displacement[c]
+                  + "'. Change one of them.");
+  }
+
+  namespace
+  {
+    /** du/dx_d by a difference of order four, and the error that its rounding may
+     * have. NaN where the displacement has no value. */
+    double
+    difference(const core::Expression &u,
+               const core::Point<3>   &p,
+               const unsigned int      d,
+               const double            step)
+    {
+      const auto at = [&](const double distance) {
+        core::Point<3> q = p;
+        q[d] += distance;
+        try
+          {
+            return u(q);
+          }
+        catch (const core::InputError &)
+          {
+            return std::nan("");
+          }
+      };
+      return (8. * (at(step) - at(-step)) - (at(2. * step) - at(-2. * step))) / (12. * step);
+    }
+
+    double
+    value_or_nan(const core::Expression &expression, const core::Point<3> &p)
+    {
+      try
+        {
+          return expression(p);
+        }
+      catch (const core::InputError &)
+        {
+          return std::nan("");
+        }
+    }
+  } // namespace
+
+  void
+  check_truth_gradient(const Scene &scene)
+  {
+    const auto &mesh = scene.mesh;
+    if (!scene.truth.has_gradient()
+        || (mesh.source != MeshSource::box && mesh.source != MeshSource::bricks))
+      return;
+    const dealii::Tensor<1, 3> size = mesh.upper_corner - mesh.lower_corner;
+    // Points inside, none of them on a symmetry plane of the box.
+    const std::array<std::array<double, 3>, 3> fractions{
+      {{{.313, .621, .457}}, {{.717, .239, .881}}, {{.141, .843, .269}}}};
+    for (const auto &fraction : fractions)
+      {
+        core::Point<3> p = mesh.lower_corner;
+        for (unsigned int d = 0; d < 3; ++d)
+          p[d] += fraction[d] * size[d];
+        std::array<double, 9> given, expected;
+        double                largest = 0.;
+        for (unsigned int i = 0; i < 9; ++i)
+          {
+            const core::Expression u(scene.truth.displacement[i / 3], "Truth/Displacement");
+            const core::Expression g(scene.truth.gradient[i], "Truth/Gradient");
+            given[i]    = value_or_nan(g, p);
+            expected[i] = difference(u, p, i % 3, 1e-3 * size[i % 3]);
+            if (std::isfinite(expected[i]))
+              largest = std::max({largest, std::abs(expected[i]), std::abs(given[i])});
+          }
+        for (unsigned int i = 0; i < 9; ++i)
+          if (std::isfinite(given[i]) && std::isfinite(expected[i]))
+            require(std::abs(given[i] - expected[i]) <= 1e-3 * largest,
+                    "Truth/Gradient",
+                    std::string("du_") + "xyz"[i / 3] + "/d" + "xyz"[i % 3] + " = "
+                      + scene.truth.gradient[i] + " is " + text_of(given[i]) + " at ("
+                      + text_of(p[0]) + ", " + text_of(p[1]) + ", " + text_of(p[2])
+                      + "), but differences of Truth/Displacement give " + text_of(expected[i])
+                      + ". Correct it, or leave Gradient empty.");
+      }
+  }
+} // namespace tetradapt::scene

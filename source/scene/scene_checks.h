@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_scene_scene_checks_h
+#define tetradapt_scene_scene_checks_h
+
+#include "tetradapt/scene/scene.h"
+
+#include <functional>
+
+namespace tetradapt::scene
+{
+  /** Whether the three expressions are constants of value zero. */
+  bool
+  all_zero(const std::array<std::string, 3> &expressions);
+
+  /** Whether a material on which the volume load @p load can act has @p property.
+   * A material that fills "all other" regions counts as one it can act on. */
+  bool
+  any_material(const Scene                                           &scene,
+               const LoadParameters                                  &load,
+               const std::function<bool(const MaterialParameters &)> &property);
+
+  /** @throws InputError if two supports on the same selection prescribe different
+   * displacements of one component. */
+  void
+  check_compatible(const SupportParameters &first, const SupportParameters &second);
+
+  /**
+   * Compares the gradient of the truth with differences of its displacement at
+   * some points of a box; nothing is done for other meshes, whose inside is not
+   * known yet.
+   * @throws InputError naming the entry that differs.
+   */
+  void
+  check_truth_gradient(const Scene &scene);
+} // namespace tetradapt::scene
+
+#endif

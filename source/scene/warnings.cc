@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "scene_checks.h"
+
+#include "tetradapt/scene/words.h"
+
+#include <utility>
+
+namespace tetradapt::scene
+{
+  namespace
+  {
+    using Marking   = AdaptivityParameters::Marking;
+    using Strategy  = AdaptivityParameters::Strategy;
+    using Route     = ReferenceParameters::MeshRoute;
+    using Reference = ReferenceParameters::Type;
+
+    /** Parameters that another choice makes meaningless, with that choice. */
+    std::vector<std::pair<std::string, std::string>>
+    unused_parameters(const Scene &scene)
+    {
+      std::vector<std::pair<std::string, std::string>> unused;
+      const auto                                       when = [&](const bool                      condition,
+                            const std::vector<std::string> &paths,
+                            const std::string              &reason) {
+        for (const auto &path : paths)
+          if (condition && scene.places.count(path) > 0)
+            unused.emplace_back(path, reason);
+      };
+      const auto &mesh      = scene.mesh;
+      const auto &reference = scene.reference;
+      const auto &adapt     = scene.adaptivity;
+      when(mesh.source != MeshSource::bricks, {"Mesh/Cells"}, "Mesh/Type = " + word(mesh.source));
+      when(mesh.source == MeshSource::file || mesh.source == MeshSource::surface,
+           {"Mesh/Lower corner", "Mesh/Upper corner"},
+           "Mesh/Type = " + word(mesh.source));
+      when(mesh.source != MeshSource::surface,
+           {"Mesh/Feature angle"},
+           "Mesh/Type = " + word(mesh.source));
+      when(reference.type == Reference::none,
+           {"Reference/Mesh", "Reference/Cells", "Reference/Volume bound", "Reference/Size"},
+           "Reference/Type = none");
+      const bool fine = reference.type == Reference::fine_mesh;
+      when(fine && reference.route != Route::bricks,
+           {"Reference/Cells"},
+           "Reference/Mesh = " + word(reference.route));
+      when(fine && reference.route != Route::refine,
+           {"Reference/Volume bound", "Reference/Size"},
+           "Reference/Mesh = " + word(reference.route));
+      when(fine && reference.route != Route::file,
+           {"Reference/File"},
+           "Reference/Mesh = " + word(reference.route));
+      const bool adaptive = adapt.strategy == Strategy::adaptive;
+      when(!adaptive,
+           {"Adaptivity/Driver", "Adaptivity/Marking", "Adaptivity/Route"},
+           "Adaptivity/Strategy = " + word(adapt.strategy));
+      const std::string marking = "Adaptivity/Marking = " + word(adapt.marking);
+      when(adaptive && adapt.marking != Marking::maximum,
+           {"Adaptivity/Lambda", "Adaptivity/Minimum new fraction"},
+           marking);
+      when(adaptive && adapt.marking != Marking::fixed_fraction, {"Adaptivity/Fraction"}, marking);
+      when(adaptive && adapt.marking != Marking::doerfler, {"Adaptivity/Theta"}, marking);
+      when(adaptive && adapt.marking != Marking::optimal_size, {"Adaptivity/Growth"}, marking);
+      when(adaptive && adapt.marking == Marking::optimal_size, {"Adaptivity/Reduction"}, marking);
+      when(adapt.strategy == Strategy::none || adapt.strategy == Strategy::mesh_list,
+           {"Adaptivity/Maximum cycles"},
+           "Adaptivity/Strategy = " + word(adapt.strategy));
+      return unused;
+    }
+  } // namespace
+
+  std::vector<std::string>
+  Scene::warnings() const
+  {
+    std::vector<std::string> messages;
+    for (const auto &[path, reason] : unused_parameters(*this))
+      messages.push_back(path + ": has no effect with " + reason + ".");
+    for (const auto &load : loads)
+      {
+        const std::string path = "Loads/" + load.name;
+        if (all_zero(load.value))
+          messages.push_back(path + "/Value: is zero, so that the load does nothing.");
+        if (load.type == LoadType::temperature
+            && !any_material(*this, load, [](const MaterialParameters &material) {
+                 return material.thermal_expansion != 0.;
+               }))
+          messages.push_back(path
+                             + "/Type: the temperature does nothing, for no material it acts on "
+                               "has a Thermal expansion.");
+      }
+    if (tetgen.radius_edge_ratio < 1.1)
+      messages.push_back("TetGen/Radius-edge ratio: TetGen may need very long with a bound below "
+                         "1.1.");
+    if (adaptivity.strategy == Strategy::adaptive && adaptivity.max_cycles == 1)
+      messages.push_back("Adaptivity/Maximum cycles: with one cycle nothing is refined.");
+    if (reference.type == Reference::fine_mesh && reference.degree < degree)
+      messages.push_back("Reference/Degree: " + std::to_string(reference.degree)
+                         + " is lower than the scene's Degree, " + std::to_string(degree)
+                         + ": the reference may be worse than what is compared with it.");
+    for (auto &message : messages)
+      message = with_place(message);
+    return messages;
+  }
+} // namespace tetradapt::scene
