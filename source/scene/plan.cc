@@ -140,18 +140,16 @@ namespace tetradapt::scene
   void
   Plan::add_solver_stages(const Scene &scene)
   {
-    bool has_temperature = false, expands = false;
+    bool has_temperature = false, expand = false;
     for (const auto &load : scene.loads)
       if (load.type == LoadType::temperature)
         {
           has_temperature = true;
-          expands         = expands || any_material(scene, load, [](const auto &material) {
-                      return material.thermal_expansion != 0.;
-                    });
+          expand          = expand || expands(scene, load);
         }
     add(thermal_strain,
         "thermal strain",
-        expands,
+        expand,
         "a temperature acts on a material that expands",
         has_temperature ? "no material with a temperature expands" : "no load is a temperature");
 

@@ -98,7 +98,9 @@ namespace tetradapt::scene
         }
       bool anything = false;
       for (const auto &load : scene.loads)
-        anything = anything || !all_zero(load.value);
+        anything = anything
+                   || (!all_zero(load.value)
+                       && (load.type != LoadType::temperature || expands(scene, load)));
       for (const auto &support : scene.supports)
         anything = anything || !all_zero(support.displacement);
       require(anything,

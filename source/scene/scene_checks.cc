@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace tetradapt::scene
 {
@@ -44,6 +45,14 @@ namespace tetradapt::scene
           return true;
       }
     return false;
+  }
+
+  bool
+  expands(const Scene &scene, const LoadParameters &load)
+  {
+    return any_material(scene, load, [](const MaterialParameters &material) {
+      return material.thermal_expansion != 0.;
+    });
   }
 
   void
@@ -85,6 +94,15 @@ namespace tetradapt::scene
           }
       };
       return (8. * (at(step) - at(-step)) - (at(2. * step) - at(-2. * step))) / (12. * step);
+    }
+
+    /** Six digits of @p value. */
+    std::string
+    short_text(const double value)
+    {
+      std::ostringstream text;
+      text << value;
+      return text.str();
     }
 
     double
@@ -133,9 +151,9 @@ namespace tetradapt::scene
             require(std::abs(given[i] - expected[i]) <= 1e-3 * largest,
                     "Truth/Gradient",
                     std::string("du_") + "xyz"[i / 3] + "/d" + "xyz"[i % 3] + " = "
-                      + scene.truth.gradient[i] + " is " + text_of(given[i]) + " at ("
+                      + scene.truth.gradient[i] + " is " + short_text(given[i]) + " at ("
                       + text_of(p[0]) + ", " + text_of(p[1]) + ", " + text_of(p[2])
-                      + "), but differences of Truth/Displacement give " + text_of(expected[i])
+                      + "), but differences of Truth/Displacement give " + short_text(expected[i])
                       + ". Correct it, or leave Gradient empty.");
       }
   }

@@ -19,6 +19,10 @@ namespace tetradapt::scene
                const LoadParameters                                  &load,
                const std::function<bool(const MaterialParameters &)> &property);
 
+  /** Whether the temperature @p load acts on a material with thermal expansion. */
+  bool
+  expands(const Scene &scene, const LoadParameters &load);
+
   /** @throws InputError if two supports on the same selection prescribe different
    * displacements of one component. */
   void

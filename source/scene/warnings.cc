@@ -79,10 +79,7 @@ namespace tetradapt::scene
         const std::string path = "Loads/" + load.name;
         if (all_zero(load.value))
           messages.push_back(path + "/Value: is zero, so that the load does nothing.");
-        if (load.type == LoadType::temperature
-            && !any_material(*this, load, [](const MaterialParameters &material) {
-                 return material.thermal_expansion != 0.;
-               }))
+        if (load.type == LoadType::temperature && !expands(*this, load))
           messages.push_back(path
                              + "/Type: the temperature does nothing, for no material it acts on "
                                "has a Thermal expansion.");

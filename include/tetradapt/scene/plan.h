@@ -5,6 +5,7 @@
 #include "tetradapt/scene/scene.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tetradapt::scene
@@ -70,11 +71,16 @@ namespace tetradapt::scene
       return needs(reference_solution) || needs(reference_file);
     }
 
-    /** All stages in the order of StageId. */
+    /** All stages in the order of StageId; a temporary plan gives its list away. */
     const std::vector<Stage> &
-    all() const
+    all() const &
     {
       return stages;
+    }
+    std::vector<Stage>
+    all() &&
+    {
+      return std::move(stages);
     }
 
     /** Two lists, "needs" and "skips", one line a stage with its reason. */
