@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// Malformed scenes and command lines, each with the message that a user gets.
+
+#include "tetradapt/cli/load_scene.h"
+#include "tetradapt/core/exceptions.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+namespace core = tetradapt::core;
+namespace cli  = tetradapt::cli;
+
+namespace
+{
+  /** A valid scene, a line each; line numbers in messages are those here. */
+  const std::vector<std::string> good{"set Degree = 1",                // 1
+                                      "subsection Mesh",               // 2
+                                      "  set Type = box",              // 3
+                                      "  set Upper corner = 10, 1, 1", // 4
+                                      "end",                           // 5
+                                      "subsection Materials",          // 6
+                                      "  subsection bone",             // 7
+                                      "    set Young modulus = 1000",  // 8
+                                      "    set Poisson ratio = 0.3",   // 9
+                                      "  end",                         // 10
+                                      "end",                           // 11
+                                      "subsection Supports",           // 12
+                                      "  subsection foot",             // 13
+                                      "    set Where = x < 1e-9",      // 14
+                                      "  end",                         // 15
+                                      "end",                           // 16
+                                      "subsection Loads",              // 17
+                                      "  subsection tip",              // 18
+                                      "    set Groups = x-max",        // 19
+                                      "    set Value = 0; 0; -1",      // 20
+                                      "  end",                         // 21
+                                      "end"};                          // 22
+
+  std::string
+  text_of(const std::vector<std::string> &lines)
+  {
+    std::string text;
+    for (const auto &line : lines)
+      text += line + "\n";
+    return text;
+  }
+
+  /** The good scene with line @p number replaced by @p text. */
+  std::string
+  with_line(const unsigned int number, const std::string &text)
+  {
+    auto lines        = good;
+    lines[number - 1] = text;
+    return text_of(lines);
+  }
+
+  /** The good scene and more after it. */
+  std::string
+  and_then(const std::string &text)
+  {
+    return text_of(good) + text + "\n";
+  }
+
+  void
+  write(const std::string &name, const std::string &text)
+  {
+    std::ofstream(name, std::ios::binary) << text;
+  }
+
+  /** Folders of the machine and muParser's own words, which differ from version to
+   * version, have no place in the expected messages. */
+  std::string
+  portable(std::string text)
+  {
+    const std::string here = std::filesystem::current_path().string() + "/";
+    for (auto at = text.find(here); at != std::string::npos; at = text.find(here))
+      text.replace(at, here.size(), "");
+    const std::string unread = "cannot be read: ";
+    const auto        at     = text.find(unread);
+    return at == std::string::npos ? text : text.substr(0, at + unread.size()) + "...";
+  }
+
+  unsigned int n_cases = 0, n_refused = 0;
+
+  void
+  load(const std::string &what, const std::string &file, const cli::Options &options)
+  {
+    ++n_cases;
+    std::cout << what << ": ";
+    try
+      {
+        cli::load_scene(file, options);
+        std::cout << "accepted\n";
+      }
+    catch (const core::InputError &error)
+      {
+        ++n_refused;
+        std::cout << portable(error.what()) << '\n';
+      }
+  }
+
+  void
+  scene(const std::string &what, const std::string &text)
+  {
+    write("s.prm", text);
+    load(what, "s.prm", cli::Options());
+  }
+
+  void
+  setting(const std::string &what, const std::string &text)
+  {
+    write("s.prm", text_of(good));
+    cli::Options options;
+    options.settings.push_back(text);
+    load(what, "s.prm", options);
+  }
+
+  void
+  arguments(const std::string &what, const std::vector<std::string> &list)
+  {
+    ++n_cases;
+    std::cout << what << ": ";
+    try
+      {
+        cli::parse_options(list);
+        std::cout << "accepted\n";
+      }
+    catch (const core::InputError &error)
+      {
+        ++n_refused;
+        std::cout << error.what() << '\n';
+      }
+  }
+
+  void
+  broken_syntax()
+  {
+    scene("misspelt keyword", with_line(3, "sett Type = box"));
+    scene("set without a value", with_line(3, "set Type box"));
+    scene("set without a name", with_line(3, "set = box"));
+    scene("missing end at the end", with_line(22, ""));
+    scene("missing end in the middle", with_line(5, ""));
+    scene("missing end of a block", with_line(10, ""));
+    scene("one end too many", and_then("end"));
+    scene("text after end", with_line(5, "end of Mesh"));
+    scene("subsection without a name", with_line(2, "subsection"));
+    scene("backslash in the last line", and_then("set Title = a \\"));
+    scene("no text", with_line(3, std::string("set Type = b\0x", 14)));
+    scene("Latin-1", with_line(1, "set Title = \xE9"));
+    scene("include of nothing", and_then("include nothing.prm"));
+    write("a.prm", "include b.prm\n");
+    write("b.prm", "\ninclude a.prm\n");
+    scene("include of itself", and_then("include a.prm"));
+    write("open.prm", "subsection Mesh\n");
+    scene("included file without end", and_then("include open.prm"));
+    scene("empty file", "");
+    load("no such scene", "nothing.prm", cli::Options());
+    load("a folder as scene", ".", cli::Options());
+  }
+
+  void
+  unknown_names()
+  {
+    scene("misspelt subsection", with_line(2, "subsection Mehs"));
+    scene("misspelt parameter", with_line(8, "set Youngs modulos = 1"));
+    scene("parameter far from all", with_line(4, "set Colour = red"));
+    scene("parameter of another section", with_line(4, "set Poisson ratio = 0.3"));
+    scene("parameter outside", and_then("set Upper corner = 1, 1, 1"));
+    scene("parameter outside of a block", with_line(7, "set Density = 1"));
+    scene("subsection for a parameter", with_line(3, "subsection Type"));
+    scene("set twice", with_line(4, "set Type = box"));
+    scene("block twice",
+          and_then("subsection Loads\n subsection tip\n set Type = pressure\n end\nend"));
+    scene("block with a strange name", with_line(7, "subsection a/b"));
+    scene("unknown law", with_line(9, "set Law = linear elastik"));
+  }
+
+  void
+  wrong_values()
+  {
+    scene("no enumeration value", with_line(3, "set Type = boxx"));
+    scene("no number", with_line(8, "set Young modulus = stiff"));
+    scene("number with a unit", with_line(8, "set Young modulus = 1000 Pa"));
+    scene("infinite number", with_line(8, "set Young modulus = inf"));
+    scene("number too large", with_line(8, "set Young modulus = 1e999"));
+    scene("two coordinates", with_line(4, "set Upper corner = 10, 1"));
+    scene("no brick list", with_line(4, "set Cells = 2x2, 3x3"));
+    scene("no components", with_line(14, "set Components = x, w"));
+    scene("no whole number", with_line(1, "set Degree = 1.5"));
+    scene("degree 3", with_line(1, "set Degree = 3"));
+    scene("two values", with_line(20, "set Value = 0; 1"));
+  }
+
+  void
+  nonsense_physics()
+  {
+    scene("nu = 0.5", with_line(9, "set Poisson ratio = 0.5"));
+    scene("nu = -1", with_line(9, "set Poisson ratio = -1"));
+    scene("E = 0", with_line(8, "set Young modulus = 0"));
+    scene("negative density", with_line(9, "set Density = -1"));
+    scene("gravity without density", with_line(19, "set Type = gravity"));
+    scene("pressure with three values", with_line(19, "set Type = pressure"));
+    scene("traction on a region", with_line(19, "set Regions = 1"));
+    scene("body force on faces", with_line(18, "subsection tip\nset Type = body force"));
+    scene("no material", "subsection Supports\nsubsection a\nend\nend");
+    scene("no support",
+          "subsection Materials\nsubsection a\nend\nend\nsubsection Loads\nsubsection b\nset Value "
+          "= 0; 0; 1\nend\nend");
+    scene("free in y", with_line(14, "set Components = x, z"));
+    scene("no load", with_line(20, "set Value = 0; 0; 0"));
+    scene("two materials everywhere", with_line(10, "end\nsubsection fat\nend"));
+    scene("region twice",
+          with_line(10, "set Regions = 1, 2\nend\nsubsection fat\nset Regions = 2\nend"));
+    scene("contradictory supports",
+          with_line(15,
+                    "end\nsubsection pull\nset Where = x < 1e-9\nset Displacement = 0; 0; 1\nend"));
+    scene("displacement of a free component",
+          with_line(14, "set Components = x, y\nset Displacement = 0; 0; 1"));
+    scene("predicate that never holds", with_line(14, "set Where = 1 > 2"));
+  }
+
+  void
+  bad_expressions()
+  {
+    scene("unknown variable", with_line(14, "set Where = r < 1"));
+    scene("missing parenthesis", with_line(20, "set Value = 0; 0; sin(x"));
+    scene("comma for semicolon", with_line(20, "set Value = 0, 0, 1"));
+    scene("empty component", with_line(20, "set Value = 0;; 1"));
+    scene("constant without value", with_line(20, "set Value = 0; 0; 1/0"));
+    scene("negative size", with_line(3, "set Size = -1"));
+    scene("wrong gradient of the truth",
+          and_then("subsection Truth\nset Displacement = x*y; 0; 0\nset Gradient = y; y; 0; 0; 0; "
+                   "0; 0; 0; 0\nend"));
+    scene("gradient without displacement",
+          and_then("subsection Truth\nset Gradient = 0;0;0;0;0;0;0;0;0\nend"));
+  }
+
+  void
+  bad_meshes()
+  {
+    scene("inverted box", with_line(4, "set Upper corner = -10, 1, 1"));
+    scene("flat box", with_line(4, "set Upper corner = 10, 1, 1e-6"));
+    scene("zero bricks", with_line(3, "set Type = bricks\nset Cells = 2x0x2"));
+    scene("too many bricks", with_line(3, "set Type = bricks\nset Cells = 9999x9999x9999"));
+    scene("surface without a file", with_line(3, "set Type = surface"));
+    scene("missing mesh file", with_line(3, "set Type = file\nset Files = no.msh"));
+    scene("missing femur", with_line(3, "set Type = surface\nset Files = .cache/data/femur.off"));
+    scene("mesh file of another format", with_line(3, "set Type = file\nset Files = no.step"));
+    write("empty.msh", "");
+    scene("empty mesh file", with_line(3, "set Type = file\nset Files = empty.msh"));
+    write("half.node", "0 3 0 0\n");
+    scene("node file without ele file", with_line(3, "set Type = file\nset Files = half.node"));
+    scene("negative volume", with_line(3, "set Volume bound = -1"));
+    scene("volume bound for bricks", with_line(3, "set Type = bricks\nset Volume bound = 1"));
+    scene("q = 1", and_then("subsection TetGen\nset Radius-edge ratio = 1\nend"));
+    scene("dihedral angle of 70",
+          and_then("subsection TetGen\nset Minimum dihedral angle = 70\nend"));
+    scene("no time for TetGen", and_then("subsection TetGen\nset Time limit = 0\nend"));
+  }
+
+  void
+  bad_studies()
+  {
+    scene("tolerance 0", and_then("subsection Solver\nset Tolerance = 0\nend"));
+    scene("negative energy", and_then("subsection Truth\nset Energy = -4\nend"));
+    scene("reference of unknown fineness",
+          and_then("subsection Reference\nset Type = fine mesh\nend"));
+    scene("reference run without a file",
+          and_then("subsection Reference\nset Type = earlier run\nend"));
+    scene("driver without a reference",
+          and_then("subsection Adaptivity\nset Strategy = adaptive\nend"));
+    scene("exact driver without truth",
+          and_then("subsection Adaptivity\nset Strategy = adaptive\nset Driver = exact\nend"));
+    scene("mesh list of one", and_then("subsection Adaptivity\nset Strategy = mesh list\nend"));
+    scene("several meshes, no list", with_line(3, "set Volume bound = 1, 0.1"));
+    scene("tolerance that cannot be measured",
+          and_then("subsection Adaptivity\nset Tolerance = 0.1\nend"));
+    scene("growth below 1", and_then("subsection Adaptivity\nset Growth = 0.5\nend"));
+    scene("theta = 0", and_then("subsection Adaptivity\nset Theta = 0\nend"));
+    scene("output to a file", and_then("subsection Output\nset Directory = s.prm\nend"));
+  }
+
+  void
+  bad_command_lines()
+  {
+    setting("setting without =", "Degree");
+    setting("setting of an unknown section", "Solvr/Tolerance=1");
+    setting("setting of an unknown parameter", "Solver/Tolerence=1");
+    setting("setting of an unknown block", "Loads/tipp/Value=0; 0; 1");
+    setting("setting that does not fit", "Degree=two");
+    setting("setting that makes no sense", "Materials/bone/Young modulus=-1");
+    arguments("unknown option", {"--validat", "s.prm"});
+    arguments("option without its value", {"s.prm", "--set"});
+    arguments("switch with a value", {"--quiet=yes", "s.prm"});
+    arguments("unknown format", {"--print-parameters=jsn"});
+    arguments("no scene", {"--quiet"});
+  }
+} // namespace
+
+int
+main()
+{
+  scene("the good scene", text_of(good));
+  broken_syntax();
+  unknown_names();
+  wrong_values();
+  nonsense_physics();
+  bad_expressions();
+  bad_meshes();
+  bad_studies();
+  bad_command_lines();
+  std::cout << n_refused << " of " << n_cases << " refused\n";
+}
