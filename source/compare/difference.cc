@@ -167,7 +167,7 @@ namespace tetradapt::compare
       }
     result.l2                = std::sqrt(sums[2 * std::size_t(n_cells)]);
     result.h1                = std::sqrt(sums[2 * std::size_t(n_cells) + 1]);
-    result.energy            = std::sqrt(energy);
+    result.energy            = std::sqrt(std::max(energy, 0.));
     result.l2_norm           = sampling.l2_norm();
     result.h1_norm           = sampling.h1_norm();
     result.energy_norm       = sampling.energy_norm();
@@ -177,7 +177,7 @@ namespace tetradapt::compare
     if (!unsampled.empty())
       integrate_unsampled(evaluator, sampling, unsampled, result.cell_energy);
     for (double &e : result.cell_energy)
-      e = std::sqrt(e);
+      e = std::sqrt(std::max(e, 0.)); // rounding may leave less than nothing
     return result;
   }
 

@@ -79,7 +79,7 @@ namespace tetradapt::compare
               sums[4] += weight * G.norm_square();
               sums[5] += weight * law.energy_density(dealii::symmetrize(G));
             }
-          result.cell_energy[cell] = std::sqrt(energy);
+          result.cell_energy[cell] = std::sqrt(std::max(energy, 0.));
           sums[2] += energy;
         }
     });
@@ -92,7 +92,7 @@ namespace tetradapt::compare
                               &result.h1_norm,
                               &result.energy_norm};
     for (unsigned int i = 0; i < 6; ++i)
-      *norms[i] = std::sqrt(sums[i]);
+      *norms[i] = std::sqrt(std::max(sums[i], 0.));
     return result;
   }
 } // namespace tetradapt::compare

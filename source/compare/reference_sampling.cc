@@ -46,7 +46,7 @@ namespace tetradapt::compare
       }
     sum_over_ranks(sums, communicator);
     for (unsigned int i = 0; i < 3; ++i)
-      norms[i] = std::sqrt(sums[i]);
+      norms[i] = std::sqrt(std::max(sums[i], 0.));
   }
 
   const PointLocator &

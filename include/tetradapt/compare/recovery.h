@@ -23,10 +23,19 @@ namespace tetradapt::compare
    * superconvergent points (degree 1: centroids; degree 2: the four Gauss points);
    * in a cell the patches of its vertices are blended by the barycentric
    * coordinates. eta_K^2 = int_K (s*-s_h):C^-1:(s*-s_h). Collective.
+   *
+   * The stress is the law's at the displacement gradient minus the thermal
+   * strain. A patch with less than twice as many points as coefficients, or whose
+   * points determine the polynomial badly (in corners, in layers of one cell), is
+   * enlarged by the patches of its cells' vertices, twice at most; where that
+   * does not help, the polynomial's degree is lowered. The integral is taken with
+   * 4 points for degree 1 and with 14 for degree 2: at the four Gauss points,
+   * where the stresses were taken, s*-s_h is far smaller than elsewhere.
    */
-  RecoveryEstimate recovery_estimate(const mesh::NodalField       &u_h,
-                                     const mechanics::MaterialMap &materials,
-                                     MPI_Comm                      communicator);
+  RecoveryEstimate
+  recovery_estimate(const mesh::NodalField       &u_h,
+                    const mechanics::MaterialMap &materials,
+                    MPI_Comm                      communicator);
 } // namespace tetradapt::compare
 
 #endif

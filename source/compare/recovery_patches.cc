@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/compare/recovery_patches.h"
+
+#include <algorithm>
+
+namespace tetradapt::compare
+{
+  RecoveryPatches::RecoveryPatches(const mesh::TetMesh &mesh) : of_cell(mesh.n_cells())
+  {
+    const unsigned int        n_points = mesh.n_points();
+    std::vector<unsigned int> start(n_points + std::size_t(1), 0);
+    for (const auto &cell : mesh.cells)
+      for (const unsigned int v : cell)
+        ++start[v + 1];
+    for (unsigned int v = 0; v < n_points; ++v)
+      start[v + 1] += start[v];
+    cells.resize(4 * mesh.cells.size());
+    auto next = start;
+    for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
+      for (const unsigned int v : mesh.cells[cell])
+        cells[next[v]++] = cell;
+
+    for (unsigned int v = 0; v < n_points; ++v)
+      {
+        const auto first = cells.begin() + start[v], last = cells.begin() + start[v + 1];
+        std::sort(first, last, [&](const unsigned int a, const unsigned int b) {
+          return mesh.regions[a] != mesh.regions[b] ? mesh.regions[a] < mesh.regions[b] : a < b;
+        });
+        for (auto it = first; it != last; ++it)
+          {
+            if (it == first || mesh.regions[*it] != mesh.regions[*(it - 1)])
+              {
+                vertex.push_back(v);
+                begin.push_back(it - cells.begin());
+              }
+            for (unsigned int i = 0; i < 4; ++i)
+              if (mesh.cells[*it][i] == v)
+                of_cell[*it][i] = vertex.size() - 1;
+          }
+      }
+    begin.push_back(cells.size());
+  }
+
+  void
+  RecoveryPatches::cells_of(const unsigned int         patch,
+                            const unsigned int         layers,
+                            std::vector<unsigned int> &result) const
+  {
+    result.assign(cells.begin() + begin[patch], cells.begin() + begin[patch + 1]);
+    std::vector<unsigned int> patches;
+    for (unsigned int layer = 0; layer < layers; ++layer)
+      {
+        patches.clear();
+        for (const unsigned int cell : result)
+          patches.insert(patches.end(), of_cell[cell].begin(), of_cell[cell].end());
+        std::sort(patches.begin(), patches.end());
+        patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
+        for (const unsigned int p : patches)
+          result.insert(result.end(), cells.begin() + begin[p], cells.begin() + begin[p + 1]);
+        std::sort(result.begin(), result.end());
+        result.erase(std::unique(result.begin(), result.end()), result.end());
+      }
+  }
+} // namespace tetradapt::compare
