@@ -63,9 +63,10 @@ namespace tetradapt::report
       text += "\nregion " + std::to_string(id)
               + (region.name.empty() ? "" : " (" + region.name + ")") + ": "
               + std::to_string(region.n_cells) + " tetrahedra, volume " + number(region.volume);
-    for (const auto &entry : census.patches)
-      text += "\n" + mesh::describe(entry.patch) + ": " + std::to_string(entry.n_faces)
-              + " faces, area " + number(entry.area);
+    for (unsigned int p = 0; p < census.patches.size(); ++p)
+      text += "\npatch " + std::to_string(p) + " with " + mesh::describe(census.patches[p].patch)
+              + ": " + std::to_string(census.patches[p].n_faces) + " faces, area "
+              + number(census.patches[p].area);
     return text + "\n" + shape_lines(mesh);
   }
 } // namespace tetradapt::report
