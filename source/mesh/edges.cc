@@ -2,23 +2,27 @@
 #include "tetradapt/mesh/edges.h"
 
 #include <algorithm>
+#include <cstdint>
 
 namespace tetradapt::mesh
 {
   namespace
   {
-    /** The larger end of an edge, and where it was named: 6 * cell + local edge. */
-    struct HalfEdge
-    {
-      unsigned int larger;
-      unsigned int slot;
+    /** The larger end of an edge and, in the lower half, where it was named: 6 *
+     * cell + local edge. One number sorts faster than two. */
+    using HalfEdge = std::uint64_t;
 
-      bool
-      operator<(const HalfEdge &other) const
-      {
-        return larger != other.larger ? larger < other.larger : slot < other.slot;
-      }
-    };
+    constexpr unsigned int
+    larger(const HalfEdge half_edge)
+    {
+      return half_edge >> 32;
+    }
+
+    constexpr unsigned int
+    slot_of(const HalfEdge half_edge)
+    {
+      return half_edge & 0xffffffffu;
+    }
 
 
 
@@ -43,17 +47,17 @@ namespace tetradapt::mesh
       for (const auto &cell : mesh.cells)
         for (const auto &[i, j] : edge_vertices)
           half_edges[begin[std::min(cell[i], cell[j]) + 1]++]
-            = {std::max(cell[i], cell[j]), slot++};
+            = static_cast<HalfEdge>(std::max(cell[i], cell[j])) << 32 | slot++;
 
       std::vector<unsigned int> first(half_edges.size());
       for (unsigned int v = 0; v < mesh.n_points(); ++v)
         {
           std::sort(half_edges.begin() + begin[v], half_edges.begin() + begin[v + 1]);
           for (unsigned int k = begin[v]; k < begin[v + 1]; ++k)
-            first[half_edges[k].slot]
-              = (k > begin[v] && half_edges[k].larger == half_edges[k - 1].larger)
-                  ? first[half_edges[k - 1].slot]
-                  : half_edges[k].slot;
+            first[slot_of(half_edges[k])]
+              = (k > begin[v] && larger(half_edges[k]) == larger(half_edges[k - 1]))
+                  ? first[slot_of(half_edges[k - 1])]
+                  : slot_of(half_edges[k]);
         }
       return first;
     }

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_mesh_volume_reader_h
+#define tetradapt_mesh_volume_reader_h
+
+#include "tetradapt/mesh/tet_mesh.h"
+
+namespace tetradapt::mesh
+{
+  /**
+   * Reads a tetrahedral mesh and finalizes it. The ending of the name tells the
+   * format: .msh (read_msh()), .vtk (read_vtk()), .vtu (read_vtu()), .node, .ele
+   * or .face (read_node_ele()).
+   *
+   * @throws core::InputError if the file does not exist, has another ending, is
+   *         damaged (with the line or byte) or does not pass finalize().
+   */
+  TetMesh
+  read_volume_mesh(const std::string &file);
+} // namespace tetradapt::mesh
+
+#endif

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/mesh/vtu_writer.h"
+
+#include "tetradapt/core/atomic_file.h"
+#include "tetradapt/core/exceptions.h"
+#include "tetradapt/mesh/scalar_types.h"
+#include "tetradapt/mesh/vtk_grid.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <set>
+
+namespace tetradapt::mesh
+{
+  namespace
+  {
+    constexpr std::size_t block_bytes = 1 << 20;
+
+
+
+    /** Whether zlib is worth its time: ids and offsets shrink to a hundredth or a
+     * sixth at once. Point numbers of cells, and the bits of computed
+     * floating-point numbers, are so close to random that compressing them takes ten
+     * times as long as writing them, to save 40 and 10 percent. They are stored. */
+    enum class Content
+    {
+      repetitive,
+      random
+    };
+
+
+
+    /** VTK's compressed array: number of blocks, size of a block and of an
+     * incomplete last one, compressed sizes, blocks. */
+    template <typename T>
+    std::string
+    compress(const std::vector<T> &values, const Content content)
+    {
+      const int         level    = content == Content::random ? Z_NO_COMPRESSION : Z_BEST_SPEED;
+      const std::size_t n_bytes  = values.size() * sizeof(T);
+      const std::size_t n_blocks = (n_bytes + block_bytes - 1) / block_bytes;
+      std::vector<std::uint64_t> header{n_blocks, block_bytes, n_bytes % block_bytes};
+      const auto                *data  = reinterpret_cast<const Bytef *>(values.data());
+      const std::size_t          start = (3 + n_blocks) * sizeof(std::uint64_t);
+      std::string                result(start + n_blocks * ::compressBound(block_bytes), '\0');
+      std::size_t                place = start;
+      for (std::size_t b = 0; b < n_blocks; ++b)
+        {
+          const std::size_t size   = std::min(block_bytes, n_bytes - b * block_bytes);
+          uLongf            length = result.size() - place;
+          if (::compress2(reinterpret_cast<Bytef *>(&result[place]),
+                          &length,
+                          data + b * block_bytes,
+                          size,
+                          level)
+              != Z_OK)
+            throw core::NumericalError("Compressing an array for a .vtu file failed.");
+          header.push_back(length);
+          place += length;
+        }
+      std::copy_n(reinterpret_cast<const char *>(header.data()), start, result.begin());
+      result.resize(place);
+      result.shrink_to_fit();
+      return result;
+    }
+
+
+
+    std::string
+    escaped(const std::string &text)
+    {
+      std::string result;
+      for (const char c : text)
+        if (c == '&')
+          result += "&amp;";
+        else if (c == '<')
+          result += "&lt;";
+        else if (c == '"')
+          result += "&quot;";
+        else
+          result += c;
+      return result;
+    }
+
+
+
+    /** "7 left hand\n" for each entry. */
+    std::string
+    lines_of(const std::map<int, std::string> &names)
+    {
+      std::string text;
+      for (const auto &[id, name] : names)
+        text += std::to_string(id) + " " + name + "\n";
+      return text;
+    }
+  } // namespace
+
+
+
+  VtuWriter::VtuWriter(const TetMesh &mesh) : mesh(mesh), n_nodes(mesh.n_points())
+  {
+    add_geometry();
+  }
+
+
+
+  VtuWriter::VtuWriter(const NodalField &field)
+    : mesh(field.mesh()), field(&field), n_nodes(field.n_nodes())
+  {
+    add_geometry();
+    std::vector<double> displacement;
+    displacement.reserve(3 * field.values.size());
+    for (const Tensor<1, 3> &u : field.values)
+      displacement.insert(displacement.end(), {u[0], u[1], u[2]});
+    add_point_data("displacement", 3, displacement, Precision::exact);
+  }
+
+
+
+  void
+  VtuWriter::add_geometry()
+  {
+    std::vector<double> coordinates;
+    coordinates.reserve(3 * static_cast<std::size_t>(n_nodes));
+    for (unsigned int n = 0; n < n_nodes; ++n)
+      {
+        const Point<3> p = field != nullptr ? field->node_position(n) : mesh.points[n];
+        coordinates.insert(coordinates.end(), {p[0], p[1], p[2]});
+      }
+    add_array(Section::points, "Points", "Float64", 3, coordinates);
+
+    const bool                quadratic = field != nullptr && field->degree() == 2;
+    const unsigned int        n_local   = quadratic ? 10 : 4;
+    std::vector<std::int32_t> connectivity;
+    connectivity.reserve(n_local * mesh.cells.size());
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      for (unsigned int i = 0; i < n_local; ++i)
+        connectivity.push_back(i < 4 ? mesh.cells[c][i] : field->node(c, i));
+    add_array(Section::cells, "connectivity", "Int32", 1, connectivity);
+
+    std::vector<std::int64_t> offsets(mesh.cells.size());
+    for (std::size_t c = 0; c < offsets.size(); ++c)
+      offsets[c] = n_local * (c + 1);
+    add_array(Section::cells, "offsets", "Int64", 1, offsets);
+    add_array(Section::cells,
+              "types",
+              "UInt8",
+              1,
+              std::vector<std::uint8_t>(mesh.cells.size(),
+                                        quadratic ? vtk_quadratic_tetra : vtk_tetra));
+  }
+
+
+
+  template <typename T>
+  void
+  VtuWriter::add_array(const Section         section,
+                       const std::string    &name,
+                       const char           *type,
+                       const unsigned int    n_components,
+                       const std::vector<T> &values)
+  {
+    std::string xml = "type=\"" + std::string(type) + "\" Name=\"" + escaped(name) + "\"";
+    if (n_components != 1)
+      xml += " NumberOfComponents=\"" + std::to_string(n_components) + "\"";
+    if (section == Section::field_data)
+      xml += " NumberOfTuples=\"" + std::to_string(values.size() / n_components) + "\"";
+    arrays.push_back(
+      {section,
+       xml,
+       compress(values,
+                std::is_floating_point_v<T> || name == "connectivity" ? Content::random
+                                                                      : Content::repetitive),
+       ""});
+  }
+
+
+
+  void
+  VtuWriter::add_numbers(const Section              section,
+                         const std::string         &name,
+                         const unsigned int         n_components,
+                         const std::size_t          n_tuples,
+                         const std::vector<double> &values,
+                         const Precision            precision)
+  {
+    if (n_components == 0 || values.size() != n_components * n_tuples)
+      throw core::InputError("The array '" + name + "' for a .vtu file has "
+                             + std::to_string(values.size()) + " numbers instead of "
+                             + std::to_string(n_tuples) + " x " + std::to_string(n_components)
+                             + ".");
+    if (precision == Precision::exact)
+      add_array(section, name, "Float64", n_components, values);
+    else
+      add_array(
+        section, name, "Float32", n_components, std::vector<float>(values.begin(), values.end()));
+  }
+
+
+
+  void
+  VtuWriter::add_point_data(const std::string         &name,
+                            const unsigned int         n_components,
+                            const std::vector<double> &values,
+                            const Precision            precision)
+  {
+    add_numbers(Section::point_data, name, n_components, n_nodes, values, precision);
+  }
+
+
+
+  void
+  VtuWriter::add_cell_data(const std::string         &name,
+                           const unsigned int         n_components,
+                           const std::vector<double> &values,
+                           const Precision            precision)
+  {
+    add_numbers(Section::cell_data, name, n_components, mesh.n_cells(), values, precision);
+  }
+
+
+
+  void
+  VtuWriter::add_point_ids(const std::string &name, const std::vector<int> &ids)
+  {
+    if (ids.size() != n_nodes)
+      throw core::InputError("The array '" + name + "' for a .vtu file has "
+                             + std::to_string(ids.size()) + " numbers instead of "
+                             + std::to_string(n_nodes) + ".");
+    add_array(Section::point_data, name, "Int32", 1, ids);
+  }
+
+
+
+  void
+  VtuWriter::add_cell_ids(const std::string &name, const std::vector<int> &ids)
+  {
+    if (ids.size() != mesh.cells.size())
+      throw core::InputError("The array '" + name + "' for a .vtu file has "
+                             + std::to_string(ids.size()) + " numbers instead of "
+                             + std::to_string(mesh.cells.size()) + ".");
+    add_array(Section::cell_data, name, "Int32", 1, ids);
+  }
+
+
+
+  void
+  VtuWriter::add_regions()
+  {
+    add_cell_ids("region", mesh.regions);
+    if (!mesh.region_names.empty())
+      add_text("region_names", lines_of(mesh.region_names));
+  }
+
+
+
+  void
+  VtuWriter::add_boundary()
+  {
+    std::vector<std::int32_t> faces, ids;
+    faces.reserve(3 * mesh.faces.size());
+    ids.reserve(mesh.faces.size());
+    for (const BoundaryFace &face : mesh.faces)
+      {
+        faces.insert(faces.end(), face.vertices.begin(), face.vertices.end());
+        ids.push_back(mesh.patches[face.patch].boundary_id);
+      }
+    add_array(Section::field_data, "boundary_faces", "Int32", 3, faces);
+    add_array(Section::field_data, "boundary_ids", "Int32", 1, ids);
+    std::map<int, std::string> names;
+    for (const Patch &patch : mesh.patches)
+      if (!patch.name.empty())
+        names[patch.boundary_id] = patch.name;
+    if (!names.empty())
+      add_text("boundary_names", lines_of(names));
+  }
+
+
+
+  void
+  VtuWriter::add_value(const std::string &name, const double value)
+  {
+    add_array(Section::field_data, name, "Float64", 1, std::vector<double>{value});
+  }
+
+
+
+  void
+  VtuWriter::add_text(const std::string &name, const std::string &text)
+  {
+    std::string codes;
+    for (const unsigned char c : text)
+      codes += std::to_string(c) + " ";
+    arrays.push_back({Section::field_data,
+                      "type=\"String\" Name=\"" + escaped(name) + "\" NumberOfTuples=\"1\"",
+                      "",
+                      codes + "0"});
+  }
+
+
+
+  void
+  VtuWriter::write(const std::string &file) const
+  {
+    core::AtomicFile output(file);
+    std::ostream    &out = output.stream();
+    out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+        << "byte_order=\"" << (is_little_endian() ? "LittleEndian" : "BigEndian")
+        << "\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n"
+        << "<UnstructuredGrid>\n";
+
+    // Blocks lie in the file in the order in which arrays were added.
+    const auto write_section = [&](const Section section, const char *element) {
+      out << '<' << element << ">\n";
+      std::size_t offset = 0;
+      for (const Array &array : arrays)
+        {
+          if (array.section == section && array.block.empty())
+            out << "<Array " << array.xml << " format=\"ascii\">" << array.text << "</Array>\n";
+          else if (array.section == section)
+            out << "<DataArray " << array.xml << " format=\"appended\" offset=\"" << offset
+                << "\"/>\n";
+          offset += array.block.size();
+        }
+      out << "</" << element << ">\n";
+    };
+    write_section(Section::field_data, "FieldData");
+    out << "<Piece NumberOfPoints=\"" << n_nodes << "\" NumberOfCells=\"" << mesh.n_cells()
+        << "\">\n";
+    write_section(Section::points, "Points");
+    write_section(Section::cells, "Cells");
+    write_section(Section::point_data, "PointData");
+    write_section(Section::cell_data, "CellData");
+    out << "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+    for (const Array &array : arrays)
+      out << array.block;
+    out << "\n</AppendedData>\n</VTKFile>\n";
+    output.commit();
+  }
+} // namespace tetradapt::mesh
