@@ -62,6 +62,8 @@ build_jobs() {
           print jobs < 1 ? 1 : jobs }' /proc/meminfo
 }
 
+is_configured() { [ -e "$1/CMakeCache.txt" ] && { [ -e "$1/build.ninja" ] || [ -e "$1/Makefile" ]; }; }
+
 # configure <folder> <build type> [options]: a new build folder uses Ninja.
 configure() {
   local folder=$1 type=$2 generator=()
