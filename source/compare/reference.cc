@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/compare/reference.h"
+
+#include "tetradapt/compare/recovery.h"
+#include "tetradapt/compare/reference_cache.h"
+#include "tetradapt/compare/reference_key.h"
+#include "tetradapt/compare/reference_mesh.h"
+#include "tetradapt/core/exceptions.h"
+#include "tetradapt/core/on_first_rank.h"
+#include "tetradapt/mesh/mesh_broadcast.h"
+#include "tetradapt/mesh/vtu_reader.h"
+#include "tetradapt/solve/energies.h"
+#include "tetradapt/solve/static_solution.h"
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+namespace tetradapt::compare
+{
+  namespace
+  {
+    using Route = scene::ReferenceParameters::MeshRoute;
+    using Clock = std::chrono::steady_clock;
+
+    double
+    seconds_since(const Clock::time_point start)
+    {
+      return std::chrono::duration<double>(Clock::now() - start).count();
+    }
+
+    std::string
+    number(const double value)
+    {
+      std::ostringstream text;
+      text.precision(3);
+      text << value;
+      return text.str();
+    }
+
+    std::string
+    describe(const mesh::NodalField &field, const std::string &origin)
+    {
+      std::ostringstream text;
+      text << 'P' << field.degree() << ", " << field.mesh().n_cells() << " tetrahedra, "
+           << 3ul * field.n_nodes() << " unknowns, " << origin;
+      return text.str();
+    }
+
+    std::string
+    stated_error(const Reference &reference)
+    {
+      if (!(reference.energy > 0.))
+        return "it is at rest";
+      return "its own estimated relative energy error is "
+             + number(reference.estimated_error / std::sqrt(reference.energy));
+    }
+
+    Reference
+    solve_reference(const scene::Scene           &scene,
+                    const mechanics::MaterialMap &materials,
+                    const mesh::TetMesh          &initial_mesh,
+                    MPI_Comm                      communicator,
+                    const core::Log              &log)
+    {
+      const auto mesh = mesh::make_on_first_rank(communicator, [&] {
+        return reference_mesh(scene, initial_mesh, log);
+      });
+      const auto solution
+        = solve::solve_static(scene, materials, mesh, scene.reference.degree, communicator, log);
+      Reference reference;
+      reference.displacement = solution.displacement;
+      reference.energy       = solution.energy;
+      log.progress("reference: estimating its error");
+      reference.estimated_error
+        = recovery_estimate(*reference.displacement, materials, communicator).global;
+      const Route route = scene.reference.route;
+      reference.description
+        = describe(*reference.displacement,
+                   route == Route::refine   ? "refined from the initial mesh"
+                   : route == Route::bricks ? "bricks"
+                                            : "mesh of " + scene.reference.file);
+      return reference;
+    }
+
+    std::string
+    cache_directory(const scene::ReferenceParameters &parameters)
+    {
+      const std::filesystem::path path = parameters.cache_directory.empty()
+                                           ? std::filesystem::path("output") / "cache"
+                                           : std::filesystem::path(parameters.cache_directory);
+      return std::filesystem::absolute(path).lexically_normal().string();
+    }
+
+    /** Writing is a convenience: when it fails, the run goes on. */
+    void
+    store(const std::string &file,
+          const std::string &key,
+          const Reference   &reference,
+          const core::Log   &log)
+    {
+      try
+        {
+          std::filesystem::create_directories(std::filesystem::path(file).parent_path());
+          CachedReference cached;
+          cached.mesh            = reference.displacement->mesh();
+          cached.degree          = reference.displacement->degree();
+          cached.values          = reference.displacement->values;
+          cached.energy          = reference.energy;
+          cached.estimated_error = reference.estimated_error;
+          cached.seconds         = reference.seconds;
+          cached.description     = reference.description;
+          write_reference_cache(file, key, cached);
+          log.info("Reference: kept for later runs in " + file);
+        }
+      catch (const std::exception &error)
+        {
+          log.warning(std::string("The reference could not be kept for later runs: ")
+                      + error.what());
+        }
+    }
+
+    /** Makes a field of a mesh and of values that rank 0 has. Collective. */
+    std::shared_ptr<mesh::NodalField>
+    share(mesh::TetMesh                     mesh,
+          unsigned int                      degree,
+          std::vector<dealii::Tensor<1, 3>> values,
+          MPI_Comm                          communicator)
+    {
+      mesh::broadcast(mesh, communicator);
+      core::broadcast_bytes(&degree, sizeof(degree), communicator);
+      core::broadcast(values, communicator);
+      auto field
+        = std::make_shared<mesh::NodalField>(std::make_shared<const mesh::TetMesh>(std::move(mesh)),
+                                             degree);
+      if (values.size() != field->values.size())
+        throw core::NumericalError("A reference was read whose displacement does not fit its mesh. "
+                                   "Remove the cache directory and run again.");
+      field->values = std::move(values);
+      return field;
+    }
+
+    /** Takes the reference from the cache; false if it is not there. Collective. */
+    bool
+    load(const std::string &file,
+         const std::string &key,
+         MPI_Comm           communicator,
+         const core::Log   &log,
+         Reference         &reference)
+    {
+      CachedReference cached;
+      double          numbers[3] = {0., 0., 0.}; // whether it was found, then its figures
+      core::on_first_rank(communicator, [&] {
+        CacheResult result = read_reference_cache(file, key);
+        if (!result.problem.empty())
+          log.warning("The kept reference " + file + " cannot be used: " + result.problem
+                      + ". It is computed anew.");
+        if (!result.reference)
+          return;
+        cached     = std::move(*result.reference);
+        numbers[0] = 1.;
+        numbers[1] = cached.energy;
+        numbers[2] = cached.estimated_error;
+      });
+      core::broadcast_bytes(numbers, sizeof(numbers), communicator);
+      if (numbers[0] == 0.)
+        return false;
+      const double seconds      = cached.seconds;
+      reference.description     = cached.description;
+      reference.energy          = numbers[1];
+      reference.estimated_error = numbers[2];
+      reference.from_cache      = true;
+      reference.displacement
+        = share(std::move(cached.mesh), cached.degree, std::move(cached.values), communicator);
+      log.info("Reference: reused from " + file + " (" + number(seconds) + " s saved)");
+      return true;
+    }
+
+    Reference
+    fine_reference(const scene::Scene           &scene,
+                   const mechanics::MaterialMap &materials,
+                   const mesh::TetMesh          &initial_mesh,
+                   MPI_Comm                      communicator,
+                   const core::Log              &log)
+    {
+      const auto  start = Clock::now();
+      std::string file, key;
+      Reference   reference;
+      if (scene.reference.cache)
+        {
+          core::on_first_rank(communicator, [&] {
+            key  = reference_key(scene, initial_mesh);
+            file = cache_directory(scene.reference) + "/reference_" + key + ".bin";
+          });
+          if (load(file, key, communicator, log, reference))
+            return reference;
+        }
+      reference         = solve_reference(scene, materials, initial_mesh, communicator, log);
+      reference.seconds = seconds_since(start);
+      if (scene.reference.cache)
+        core::on_first_rank(communicator, [&] { store(file, key, reference, log); });
+      return reference;
+    }
+
+    Reference
+    reference_of_run(const scene::Scene           &scene,
+                     const mechanics::MaterialMap &materials,
+                     MPI_Comm                      communicator,
+                     const core::Log              &log)
+    {
+      const std::string                &file = scene.reference.file;
+      mesh::TetMesh                     mesh;
+      unsigned int                      degree = 1;
+      std::vector<dealii::Tensor<1, 3>> values;
+      core::on_first_rank(communicator, [&] {
+        log.progress("reference: reading " + file);
+        const auto run = mesh::read_displacement_vtu(file);
+        mesh           = run.displacement->mesh();
+        degree         = run.displacement->degree();
+        values         = run.displacement->values;
+        for (const int region : mesh.regions)
+          materials.law(region); // throws for one without material
+      });
+      Reference reference;
+      reference.displacement = share(std::move(mesh), degree, std::move(values), communicator);
+      reference.energy
+        = solve::compute_energies(*reference.displacement, materials, communicator).energy;
+      reference.estimated_error
+        = recovery_estimate(*reference.displacement, materials, communicator).global;
+      reference.description = describe(*reference.displacement, "read from " + file);
+      return reference;
+    }
+
+    /** Warns if the reference's mesh does not fill the same body. */
+    void
+    compare_bodies(const mesh::TetMesh &reference,
+                   const mesh::TetMesh &initial_mesh,
+                   const core::Log     &log)
+    {
+      const auto   ours = mesh::bounding_box(initial_mesh), theirs = mesh::bounding_box(reference);
+      const double size = (ours.second - ours.first).norm();
+      const double distance
+        = std::max((ours.first - theirs.first).norm(), (ours.second - theirs.second).norm());
+      const double volume = mesh::total_volume(initial_mesh);
+      const double change = std::abs(mesh::total_volume(reference) - volume) / volume;
+      if (distance > 1e-6 * size || change > 1e-6)
+        log.warning("The reference's mesh does not fill the same body as the scene's: corners of "
+                    "the bounding boxes are up to "
+                    + number(distance) + " apart, the volumes differ by " + number(100. * change)
+                    + " %. Points outside a mesh are compared with its nearest point, so the "
+                      "error measured includes the difference of the bodies.");
+    }
+  } // namespace
+
+  Reference
+  make_reference(const scene::Scene                  &scene,
+                 const mechanics::MaterialMap        &materials,
+                 std::shared_ptr<const mesh::TetMesh> initial_mesh,
+                 MPI_Comm                             communicator,
+                 const core::Log                     &log)
+  {
+    const auto start = Clock::now();
+    if (scene.reference.type == scene::ReferenceParameters::Type::none)
+      throw core::InputError("A reference is needed, but Reference/Type is none.");
+    Reference reference = scene.reference.type == scene::ReferenceParameters::Type::run
+                            ? reference_of_run(scene, materials, communicator, log)
+                            : fine_reference(scene, materials, *initial_mesh, communicator, log);
+    reference.seconds   = seconds_since(start);
+    log.info("Reference: " + reference.description + "; " + stated_error(reference));
+    compare_bodies(reference.displacement->mesh(), *initial_mesh, log);
+    return reference;
+  }
+} // namespace tetradapt::compare

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/compare/reference_key.h"
+
+#include "tetradapt/compare/fingerprint.h"
+#include "tetradapt/core/exceptions.h"
+
+#include <deal.II/base/config.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+// Set by the build for this room: they change with the packages.
+#ifndef TETRADAPT_TETGEN_VERSION
+#define TETRADAPT_TETGEN_VERSION "unknown"
+#endif
+
+namespace tetradapt::compare
+{
+  namespace
+  {
+    /** To be raised when the same scene gives another reference than before. */
+    constexpr unsigned int method_version = 1;
+
+    /** Names and values, one a line, with all digits; strings with their length. */
+    class CanonicalText
+    {
+    public:
+      CanonicalText()
+      {
+        text.precision(17);
+      }
+      void
+      operator()(const char *name, const std::string &value)
+      {
+        text << name << ' ' << value.size() << ' ' << value << '\n';
+      }
+      template <typename T>
+      void
+      operator()(const char *name, const T &value)
+      {
+        text << name << ' ' << value << '\n';
+      }
+      template <typename T>
+      void
+      list(const char *name, const T &values)
+      {
+        (*this)(name, values.size());
+        for (const auto &value : values)
+          (*this)(name, value);
+      }
+      std::string
+      str() const
+      {
+        return text.str();
+      }
+
+    private:
+      std::ostringstream text;
+    };
+
+    void
+    describe(CanonicalText &text, const scene::Selector &selector)
+    {
+      text.list("ids", selector.ids);
+      text.list("groups", selector.groups);
+      text("where", selector.where);
+    }
+
+    void
+    describe_model(CanonicalText &text, const scene::Scene &scene)
+    {
+      for (const auto &material : scene.materials)
+        {
+          text("material", material.name);
+          text.list("regions", material.regions);
+          text.list("groups", material.region_groups);
+          text("law", material.law);
+          text("E", material.young_modulus);
+          text("nu", material.poisson_ratio);
+          text("density", material.density);
+          text("expansion", material.thermal_expansion);
+        }
+      for (const auto &support : scene.supports)
+        {
+          text("support", support.name);
+          describe(text, support.selector);
+          text.list("components", support.components);
+          text.list("displacement", support.displacement);
+        }
+      for (const auto &load : scene.loads)
+        {
+          text("load", load.name);
+          text("type", static_cast<int>(load.type));
+          describe(text, load.selector);
+          text.list("value", load.value);
+        }
+      text("solver", static_cast<int>(scene.solver.type));
+      text("tolerance", scene.solver.tolerance);
+    }
+
+    void
+    describe_mesh_parameters(CanonicalText &text, const scene::Scene &scene)
+    {
+      const auto &reference = scene.reference;
+      text("degree", reference.degree);
+      text("route", static_cast<int>(reference.route));
+      switch (reference.route)
+        {
+        case scene::ReferenceParameters::MeshRoute::bricks:
+          text.list("cells", reference.cells);
+          text("lower", scene.mesh.lower_corner);
+          text("upper", scene.mesh.upper_corner);
+          return;
+        case scene::ReferenceParameters::MeshRoute::file:
+          return; // its content is added elsewhere, its name does not matter
+        case scene::ReferenceParameters::MeshRoute::refine:
+          text("TetGen", std::string(TETRADAPT_TETGEN_VERSION));
+          text("volume bound", reference.volume_bound);
+          text("size", reference.size);
+          text("radius-edge ratio", reference.radius_edge_ratio);
+          text("dihedral angle", reference.dihedral_angle);
+          text("optimisation", scene.tetgen.optimisation_level);
+          text("scheme", scene.tetgen.optimisation_scheme);
+          text("points", scene.tetgen.steiner_points);
+          text("boundary", scene.tetgen.keep_boundary);
+        }
+    }
+
+    template <typename T>
+    void
+    add_vector(Fingerprint &hash, const std::vector<T> &values)
+    {
+      hash.add(values.data(), values.size() * sizeof(T));
+    }
+
+    void
+    add_mesh(Fingerprint &hash, const mesh::TetMesh &mesh)
+    {
+      add_vector(hash, mesh.points);
+      add_vector(hash, mesh.cells);
+      add_vector(hash, mesh.regions);
+      add_vector(hash, mesh.faces);
+      CanonicalText text;
+      for (const auto &patch : mesh.patches)
+        {
+          text("patch", patch.boundary_id);
+          text("name", patch.name);
+          text.list("selections", patch.selections);
+        }
+      hash.add(text.str());
+    }
+
+    void
+    add_file(Fingerprint &hash, const std::string &name)
+    {
+      std::ifstream     file(name, std::ios::binary);
+      const std::string content{std::istreambuf_iterator<char>(file),
+                                std::istreambuf_iterator<char>()};
+      if (!file.good() && !file.eof())
+        throw core::InputError("The reference's mesh file '" + name
+                               + "' cannot be read. Correct Reference/File.");
+      hash.add(content);
+    }
+
+    /** A file's bytes; all of the three that make up a .node mesh. */
+    void
+    add_mesh_file(Fingerprint &hash, const std::string &name)
+    {
+      const std::filesystem::path path(name);
+      const std::string           ending = path.extension().string();
+      hash.add(ending);
+      if (ending != ".node" && ending != ".ele" && ending != ".face")
+        return add_file(hash, name);
+      for (const char *part : {".node", ".ele", ".face"})
+        {
+          auto here = path;
+          here.replace_extension(part);
+          if (std::filesystem::exists(here))
+            {
+              hash.add(std::string(part));
+              add_file(hash, here.string());
+            }
+        }
+    }
+  } // namespace
+
+  std::string
+  reference_key(const scene::Scene &scene, const mesh::TetMesh &initial_mesh)
+  {
+    CanonicalText text;
+    text("method", method_version);
+    text("deal.II", std::string(DEAL_II_PACKAGE_VERSION));
+    describe_model(text, scene);
+    describe_mesh_parameters(text, scene);
+    // Materials may name regions by what the initial mesh calls them.
+    for (const auto &region : initial_mesh.region_names)
+      {
+        text("region", region.first);
+        text("name", region.second);
+      }
+    Fingerprint hash;
+    hash.add(text.str());
+    if (scene.reference.route == scene::ReferenceParameters::MeshRoute::refine)
+      add_mesh(hash, initial_mesh);
+    if (scene.reference.route == scene::ReferenceParameters::MeshRoute::file)
+      add_mesh_file(hash, scene.reference.file);
+    return hash.hex();
+  }
+} // namespace tetradapt::compare

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/compare/reference_mesh.h"
+
+#include "tetradapt/mesh/bricks.h"
+#include "tetradapt/mesh/mesh_factory.h"
+#include "tetradapt/mesh/selection.h"
+#include "tetradapt/mesh/size_function.h"
+#include "tetradapt/mesh/volume_reader.h"
+
+namespace tetradapt::compare
+{
+  namespace
+  {
+    mesh::TetMesh
+    refined_mesh(const scene::Scene &scene, const mesh::TetMesh &initial_mesh, const core::Log &log)
+    {
+      const auto             &parameters = scene.reference;
+      scene::TetgenParameters quality    = scene.tetgen;
+      quality.radius_edge_ratio          = parameters.radius_edge_ratio;
+      quality.dihedral_angle             = parameters.dihedral_angle;
+      const mesh::Tetgen tetgen(quality);
+      log.progress("reference: TetGen refines the initial mesh");
+      mesh::TetMesh mesh        = initial_mesh;
+      bool          cap_reached = false;
+      if (parameters.volume_bound > 0.)
+        {
+          mesh::Sizing       sizing;
+          mesh::TetgenReport report;
+          sizing.max_volume = parameters.volume_bound;
+          mesh              = tetgen.refine(mesh, sizing, &report);
+          cap_reached       = report.cap_reached;
+        }
+      if (!parameters.size.empty())
+        {
+          mesh::SizeReport report;
+          mesh        = mesh::mesh_with_size(tetgen,
+                                      mesh,
+                                      core::Expression(parameters.size, "Reference/Size"),
+                                      &report);
+          cap_reached = cap_reached || report.cap_reached;
+        }
+      if (cap_reached)
+        log.warning("TetGen/Steiner points stopped the refinement of the reference's mesh: it is "
+                    "coarser than asked for. Raise the limit.");
+      return mesh;
+    }
+  } // namespace
+
+  mesh::TetMesh
+  reference_mesh(const scene::Scene &scene, const mesh::TetMesh &initial_mesh, const core::Log &log)
+  {
+    const auto &parameters = scene.reference;
+    if (parameters.route == scene::ReferenceParameters::MeshRoute::refine)
+      return refined_mesh(scene, initial_mesh, log);
+    log.progress("reference: making its mesh");
+    mesh::TetMesh mesh
+      = parameters.route == scene::ReferenceParameters::MeshRoute::bricks
+          ? mesh::bricks(scene.mesh.lower_corner, scene.mesh.upper_corner, parameters.cells)
+          : mesh::read_volume_mesh(parameters.file);
+    mesh::select_faces(mesh, mesh::face_selectors(scene));
+    return mesh;
+  }
+} // namespace tetradapt::compare
