@@ -35,8 +35,7 @@ as_root() {
   elif command -v sudo >/dev/null; then
     sudo "$@"
   else
-    fail "Root is needed for: $*
-There is no sudo here: run this command as root, then start again."
+    fail "Root is needed, and there is no sudo here. As root: $*"
   fi
 }
 
@@ -49,8 +48,8 @@ install_packages() {
   missing=$(missing_packages "$@")
   [ -n "$missing" ] || return 0
   say "Installing from Debian's packages: $missing"
-  as_root env DEBIAN_FRONTEND=noninteractive sh -c "apt-get update -q &&
-    apt-get install -q -y --no-install-recommends $missing" >&2 ||
+  as_root sh -c "apt-get update -q &&
+    DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends $missing" >&2 ||
     fail "These Debian packages could not be installed: $missing"
 }
 
