@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/adapt/size_field.h"
+
+#include "tetradapt/adapt/size_prediction.h"
+#include "tetradapt/mesh/tetgen_request.h"
+
+#include <boost/math/tools/roots.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tetradapt::adapt
+{
+  using Route = scene::AdaptivityParameters::Route;
+
+  double
+  equivalent_edge(const double volume)
+  {
+    return std::cbrt(6. * std::sqrt(2.) * volume);
+  }
+
+
+
+  double
+  regular_volume(const double edge)
+  {
+    return edge * edge * edge / (6. * std::sqrt(2.));
+  }
+
+
+
+  double
+  volume_bound_factor(const double q)
+  {
+    // Measured with TetGen 1.5.0 at q = 1.2, 1.414 and 2: 4, 2.3 and 2.2.
+    if (q <= 1.2)
+      return 4.;
+    if (q <= 1.414)
+      return 4. + (2.3 - 4.) * (q - 1.2) / (1.414 - 1.2);
+    if (q <= 2.)
+      return 2.3 + (2.2 - 2.3) * (q - 1.414) / (2. - 1.414);
+    return 2.2;
+  }
+
+
+
+  SizeFieldOptions
+  make_size_field_options(const scene::AdaptivityParameters &parameters,
+                          const scene::TetgenParameters     &tetgen,
+                          const unsigned int                 degree,
+                          const unsigned long                n_cells)
+  {
+    SizeFieldOptions options;
+    options.route = parameters.route;
+    // Displacements converge one power of h faster than strains.
+    options.rate
+      = degree + (parameters.driver == scene::AdaptivityParameters::Driver::ren ? 1. : 0.);
+    options.wanted_tets = parameters.growth * n_cells;
+    if (parameters.max_tets > 0)
+      options.wanted_tets = std::min<double>(options.wanted_tets, parameters.max_tets);
+    options.min_ratio         = parameters.min_ratio;
+    options.max_ratio         = parameters.max_ratio;
+    options.min_size          = parameters.min_size;
+    options.max_size          = parameters.max_size;
+    options.gradation         = parameters.gradation;
+    options.reduction         = parameters.reduction;
+    options.radius_edge_ratio = tetgen.radius_edge_ratio;
+    return options;
+  }
+
+
+
+  double
+  next_obtained_over_predicted(const SizeField &field, const unsigned long obtained)
+  {
+    if (!(field.predicted_tets > 0.))
+      return 0.;
+    return std::clamp(field.obtained_over_predicted * obtained / field.predicted_tets, 0.5, 3.);
+  }
+
+
+
+  namespace
+  {
+    /** For points without a cell; finite, as TetGen wants it. */
+    constexpr double no_size = 1e100;
+
+    /** Where in [@p low, @p high] the falling function @p f is zero, or the end
+     * where it comes nearest to zero if it is not. */
+    template <class Function>
+    double
+    find_zero(const Function &f, const double low, const double high, const double start)
+    {
+      constexpr double accuracy = 1e-3; // of log h: 0.3 % of the tetrahedra
+      double           a = std::clamp(start, low, high), f_a = f(a), step = 0.1;
+      while (f_a != 0.)
+        {
+          const double b = std::clamp(f_a > 0. ? a + step : a - step, low, high);
+          if (b == a)
+            break;
+          const double f_b = f(b);
+          if (f_b != 0. && std::signbit(f_b) != std::signbit(f_a))
+            {
+              std::uintmax_t n_iterations = 50;
+              const auto     bracket      = boost::math::tools::toms748_solve(
+                f,
+                std::min(a, b),
+                std::max(a, b),
+                std::max(f_a, f_b),
+                std::min(f_a, f_b),
+                [](const double x, const double y) { return std::abs(x - y) < accuracy; },
+                n_iterations);
+              return 0.5 * (bracket.first + bracket.second);
+            }
+          a   = b;
+          f_a = f_b;
+          step *= 2.;
+        }
+      return a;
+    }
+
+
+
+    /** The circumradius of a cell: TetGen splits a cell when it is larger than
+     * the size it was given at one of the vertices. */
+    double
+    circumradius(const mesh::TetMesh &mesh, const unsigned int c)
+    {
+      const auto              &v  = mesh.cells[c];
+      const mesh::Tensor<1, 3> a  = mesh.points[v[1]] - mesh.points[v[0]];
+      const mesh::Tensor<1, 3> b  = mesh.points[v[2]] - mesh.points[v[0]];
+      const mesh::Tensor<1, 3> d  = mesh.points[v[3]] - mesh.points[v[0]];
+      const mesh::Tensor<1, 3> bd = dealii::cross_product_3d(b, d);
+      const mesh::Tensor<1, 3> center
+        = (a.norm_square() * bd + b.norm_square() * dealii::cross_product_3d(d, a)
+           + d.norm_square() * dealii::cross_product_3d(a, b))
+          / (2. * (a * bd));
+      return center.norm();
+    }
+  } // namespace
+
+
+
+  SizeField
+  optimal_size_field(const mesh::TetMesh       &mesh,
+                     const std::vector<double> &indicators,
+                     const SizeFieldOptions    &options,
+                     const mesh::EdgeTable     *edges)
+  {
+    check_indicators(indicators, mesh);
+    if (std::all_of(indicators.begin(), indicators.end(), [](const double e) { return e == 0.; }))
+      {
+        // Nothing to refine, and no scale to find.
+        SizeField field;
+        field.predicted_tets = mesh.n_cells();
+        return field;
+      }
+    mesh::EdgeTable own_edges;
+    if (edges == nullptr && options.gradation > 0.)
+      own_edges = mesh::build_edges(mesh);
+    SizePrediction prediction(mesh, indicators, options, edges != nullptr ? *edges : own_edges);
+
+    double log_scale = find_zero(
+      [&](const double x) {
+        prediction.set_scale(x);
+        return std::log(prediction.n_tets() / options.wanted_tets);
+      },
+      prediction.lowest(),
+      prediction.highest(),
+      prediction.guess(options.wanted_tets));
+    prediction.set_scale(log_scale);
+
+    const double goal            = options.tolerance_safety * options.tolerance;
+    const bool   tolerance_bound = prediction.error() < goal;
+    if (tolerance_bound)
+      {
+        const double smallest = std::min(options.wanted_tets, options.min_growth * mesh.n_cells());
+        log_scale             = find_zero(
+          [&](const double x) {
+            prediction.set_scale(x);
+            return std::min(std::log(goal / prediction.error()),
+                            std::log(prediction.n_tets() / smallest));
+          },
+          prediction.lowest(),
+          prediction.highest(),
+          log_scale);
+        prediction.set_scale(log_scale);
+      }
+    SizeField field       = prediction.field();
+    field.tolerance_bound = tolerance_bound;
+    return field;
+  }
+
+
+
+  SizeField
+  marked_size_field(const mesh::TetMesh    &mesh,
+                    const Marking          &marking,
+                    const SizeFieldOptions &options)
+  {
+    std::vector<bool> marked(mesh.n_cells(), false);
+    for (const unsigned int c : marking.cells)
+      marked[c] = true;
+
+    const double        bound = volume_bound_factor(options.radius_edge_ratio);
+    SizeField           field;
+    std::vector<double> cell_volumes(mesh.n_cells(), 0.);
+    // Around every point: volume, volume times log of the size, whether a cell is
+    // refined, and the size at which TetGen would leave all cells alone.
+    std::vector<double> volumes(mesh.n_points(), 0.), logs(mesh.n_points(), 0.);
+    std::vector<double> kept_sizes(mesh.n_points(), 0.);
+    std::vector<bool>   refined(mesh.n_points(), false);
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      {
+        const double volume = mesh::cell_volume(mesh, c);
+        const double size   = equivalent_edge(volume);
+        const bool   refine = marked[c] && options.reduction * size >= options.min_size;
+        const double wanted = refine ? options.reduction * size : size;
+        field.n_refined += refine ? 1 : 0;
+        field.n_clamped += marked[c] && !refine ? 1 : 0;
+        field.predicted_tets += refine ? std::pow(options.reduction, -3.) : 1.;
+        cell_volumes[c] = refine ? bound * regular_volume(wanted) : 0.;
+
+        const double kept = 1.001 * circumradius(mesh, c) / mesh::tetgen_size_factor;
+        for (const unsigned int v : mesh.cells[c])
+          {
+            volumes[v] += volume;
+            logs[v] += volume * std::log(wanted);
+            refined[v]    = refined[v] || refine;
+            kept_sizes[v] = std::max(kept_sizes[v], kept);
+          }
+      }
+    field.node_sizes.assign(mesh.n_points(), no_size);
+    for (unsigned int p = 0; p < mesh.n_points(); ++p)
+      if (volumes[p] > 0.)
+        field.node_sizes[p] = refined[p] ? std::exp(logs[p] / volumes[p]) : kept_sizes[p];
+
+    if (field.n_refined > 0 && options.route == Route::node_sizes)
+      field.sizing.node_sizes = field.node_sizes;
+    else if (field.n_refined > 0)
+      field.sizing.cell_volumes = std::move(cell_volumes);
+    return field;
+  }
+} // namespace tetradapt::adapt

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/adapt/stopping.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace tetradapt::adapt
+{
+  using scene::AdaptivityParameters;
+  using Strategy = AdaptivityParameters::Strategy;
+
+  namespace
+  {
+    std::string
+    number(const double value)
+    {
+      std::ostringstream text;
+      text.precision(3);
+      text << value;
+      return text.str();
+    }
+
+
+
+    /** The relative energy error of a cycle as well as it is known, and how it is
+     * called. */
+    struct MeasuredError
+    {
+      std::optional<double> value;
+      std::string           name;
+    };
+
+
+
+    MeasuredError
+    measured_error(const StoppingContext &context, const CycleRecord &record)
+    {
+      if (context.true_energy_error && record.relative_energy_error)
+        return {record.relative_energy_error, "true relative energy error"};
+      if (!record.relative_estimate)
+        return {};
+      if (!record.reference_error)
+        return {record.relative_estimate, "estimated relative energy error"};
+      return {std::hypot(*record.relative_estimate, *record.reference_error),
+              "estimated relative energy error (the reference's own error of "
+                + number(*record.reference_error) + " included)"};
+    }
+
+
+
+    ReferenceTrust
+    trust_of(const StoppingContext &context, const CycleRecord &record)
+    {
+      if (context.reference_tets == 0)
+        return ReferenceTrust::unknown;
+      return reference_trust(record.reference_error,
+                             context.true_energy_error && record.relative_energy_error
+                               ? record.relative_energy_error
+                               : record.relative_estimate);
+    }
+
+
+
+    /** Whether the figures of this scene's table hang on the reference. */
+    bool
+    measured_with_reference(const StoppingContext &context)
+    {
+      return context.reference_tets > 0 && !context.true_energy_error;
+    }
+
+
+
+    /** The reference's error beside the mesh's, as half a sentence. */
+    std::string
+    beside(const StoppingContext &context, const CycleRecord &record)
+    {
+      const bool is_true = context.true_energy_error && record.relative_energy_error;
+      return "its own relative energy error is " + number(*record.reference_error)
+             + (is_true ? ", the true error of this mesh " : ", its difference to this mesh ")
+             + number(is_true ? *record.relative_energy_error : *record.relative_estimate);
+    }
+
+
+
+    /** Fills reason and text if every tolerance that is set is reached. */
+    void
+    check_tolerances(const AdaptivityParameters &parameters,
+                     const StoppingContext      &context,
+                     const CycleRecord          &record,
+                     const ReferenceTrust        trust,
+                     StopDecision               &decision)
+    {
+      const bool energy_wanted = parameters.tolerance > 0.;
+      const bool ren_wanted    = parameters.ren_tolerance > 0.;
+      if (!energy_wanted && !ren_wanted)
+        return;
+
+      std::string text;
+      if (energy_wanted)
+        {
+          const MeasuredError error = measured_error(context, record);
+          if (!error.value || !(*error.value <= parameters.tolerance))
+            return;
+          // The figure includes the reference's error, but a figure that is mostly
+          // the reference's error says nothing about the mesh.
+          if (!context.true_energy_error && trust == ReferenceTrust::saturated)
+            return;
+          text = "Tolerance reached: the " + error.name + " is " + number(*error.value)
+                 + ", at most " + number(parameters.tolerance);
+        }
+      if (ren_wanted)
+        {
+          if (!record.mean_ren || !(*record.mean_ren <= parameters.ren_tolerance))
+            return;
+          if (!context.true_ren && trust == ReferenceTrust::saturated)
+            return;
+          text += (text.empty() ? "Tolerance reached: the mean REN is " : "; the mean REN is ")
+                  + number(*record.mean_ren) + ", at most " + number(parameters.ren_tolerance);
+        }
+      const bool by_reference
+        = context.reference_tets > 0
+          && ((energy_wanted && !context.true_energy_error) || (ren_wanted && !context.true_ren));
+      if (by_reference && trust == ReferenceTrust::unknown)
+        text += "; the reference's own error is not known, so this holds only relative to it";
+      else if (by_reference && trust == ReferenceTrust::doubtful)
+        text += "; the reference is less than three times better, so the figure is rough";
+      decision.reason  = StopReason::tolerance;
+      decision.success = true;
+      decision.text    = text + ".";
+    }
+
+
+
+    /** Saturation, or a mesh as fine as the reference's. */
+    void
+    check_reference(const AdaptivityParameters &parameters,
+                    const StoppingContext      &context,
+                    const CycleRecord          &record,
+                    const ReferenceTrust        trust,
+                    StopDecision               &decision)
+    {
+      // An adaptive loop driven by the exact error does not use the reference.
+      const bool drives = parameters.strategy == Strategy::adaptive
+                          && parameters.driver != AdaptivityParameters::Driver::exact;
+      const bool ends
+        = drives || (parameters.strategy == Strategy::uniform && measured_with_reference(context));
+      std::string text;
+      if (trust == ReferenceTrust::saturated)
+        {
+          decision.reason = StopReason::saturation;
+          text = "the reference is hardly better than the mesh: " + beside(context, record);
+        }
+      else if (context.reference_tets > 0 && context.degree >= context.reference_degree
+               && record.tets >= context.reference_tets)
+        {
+          decision.reason = StopReason::reference_mesh;
+          text = "this mesh has " + std::to_string(record.tets) + " tetrahedra of degree "
+                 + std::to_string(context.degree) + ", the reference "
+                 + std::to_string(context.reference_tets) + " of degree "
+                 + std::to_string(context.reference_degree);
+        }
+      else
+        {
+          if (trust == ReferenceTrust::doubtful && (drives || measured_with_reference(context)))
+            decision.warnings.push_back(
+              "Figures measured with the reference are rough: " + beside(context, record) + ".");
+          return;
+        }
+      text
+        += "; ask for a finer reference (Reference section: a smaller volume bound or degree 2).";
+      if (ends)
+        decision.text = "Stopped without convergence: " + text;
+      else
+        {
+          decision.reason = StopReason::none;
+          if (measured_with_reference(context))
+            decision.warnings.push_back("What is measured is the reference's error: " + text);
+        }
+    }
+
+
+
+    /** Limits on tetrahedra, unknowns and time. */
+    void
+    check_limits(const AdaptivityParameters &parameters,
+                 const StoppingContext      &context,
+                 const CycleRecord          &record,
+                 StopDecision               &decision)
+    {
+      // A next mesh that would exceed the limit is not made: uniform refinement
+      // multiplies by 8; an adaptive step of less than a fifth is not worth a solve.
+      const double growth = parameters.strategy == Strategy::uniform ? 8. : 1.2;
+      const auto   limit  = [&](const StopReason    reason,
+                             const unsigned long value,
+                             const unsigned long bound,
+                             const std::string  &what) {
+        if (decision.stop() || bound == 0 || growth * value <= bound)
+          return;
+        decision.reason = reason;
+        decision.text
+          = "Stopped at a limit: the mesh has " + std::to_string(value) + " " + what
+            + (value > bound ? ", more than the " : ", and the next one would exceed the ")
+            + std::to_string(bound) + " allowed.";
+      };
+      limit(StopReason::max_tets, record.tets, parameters.max_tets, "tetrahedra");
+      limit(StopReason::max_dofs, record.dofs, parameters.max_dofs, "unknowns");
+      if (!decision.stop() && parameters.max_seconds > 0.
+          && context.elapsed_seconds >= parameters.max_seconds)
+        {
+          decision.reason = StopReason::max_seconds;
+          decision.text   = "Stopped at a limit: the run took " + number(context.elapsed_seconds)
+                          + " s, and " + number(parameters.max_seconds) + " s are allowed.";
+        }
+    }
+  } // namespace
+
+
+
+  ReferenceTrust
+  reference_trust(const std::optional<double> &reference_error,
+                  const std::optional<double> &mesh_error)
+  {
+    if (!reference_error || !mesh_error)
+      return ReferenceTrust::unknown;
+    if (*reference_error >= 0.7 * *mesh_error && *reference_error > 0.)
+      return ReferenceTrust::saturated;
+    return 3. * *reference_error > *mesh_error ? ReferenceTrust::doubtful : ReferenceTrust::trusted;
+  }
+
+
+
+  StopDecision
+  decide_stop(const AdaptivityParameters     &parameters,
+              const StoppingContext          &context,
+              const std::vector<CycleRecord> &history)
+  {
+    StopDecision decision;
+    if (history.empty())
+      return decision;
+    const CycleRecord   &record = history.back();
+    const ReferenceTrust trust  = trust_of(context, record);
+
+    const auto finish = [&decision](const StopReason reason, const std::string &text) {
+      decision.reason  = reason;
+      decision.success = true;
+      decision.text    = text;
+    };
+    if (parameters.strategy == Strategy::adaptive || parameters.strategy == Strategy::uniform)
+      check_tolerances(parameters, context, record, trust, decision);
+    if (!decision.stop())
+      check_reference(parameters, context, record, trust, decision);
+    if (decision.stop())
+      return decision;
+
+    if (parameters.strategy == Strategy::none)
+      finish(StopReason::one_mesh, "Done: the scene asks for one mesh.");
+    else if (parameters.strategy == Strategy::mesh_list)
+      {
+        if (history.size() >= context.n_meshes)
+          finish(StopReason::end_of_list,
+                 "Done: all " + std::to_string(context.n_meshes) + " meshes of the list.");
+      }
+    else if (history.size() >= parameters.max_cycles)
+      {
+        const bool tolerance_missed = parameters.tolerance > 0. || parameters.ren_tolerance > 0.;
+        decision.reason             = StopReason::max_cycles;
+        decision.success            = !tolerance_missed;
+        decision.text               = (tolerance_missed ? "Stopped at a limit: " : "Done: ")
+                        + std::to_string(history.size())
+                        + (history.size() == 1 ? " cycle" : " cycles")
+                        + (tolerance_missed ? ", and the tolerance is not reached." : ".");
+      }
+    else
+      check_limits(parameters, context, record, decision);
+
+    if (!decision.stop() && history.size() > 1 && parameters.strategy == Strategy::adaptive)
+      {
+        const StopDecision no_new = decide_new_mesh(history[history.size() - 2].tets, record.tets);
+        decision.reason           = no_new.reason;
+        decision.text             = no_new.text;
+      }
+    return decision;
+  }
+
+
+
+  StopDecision
+  decide_nothing_to_refine(const double largest_indicator)
+  {
+    StopDecision decision;
+    if (largest_indicator == 0.)
+      {
+        decision.reason = StopReason::no_error;
+        decision.text   = "Stopped: every error indicator is zero, so nothing can be refined.";
+      }
+    else
+      {
+        decision.reason = StopReason::no_new_tets;
+        decision.text   = "Stopped without convergence: the wanted sizes are nowhere below those "
+                          "of the mesh (look at the minimum size, the minimum ratio and the limit "
+                          "on tetrahedra).";
+      }
+    return decision;
+  }
+
+
+
+  StopDecision
+  decide_new_mesh(const unsigned long old_tets, const unsigned long new_tets)
+  {
+    StopDecision decision;
+    if (old_tets == new_tets)
+      {
+        decision.reason = StopReason::no_new_tets;
+        decision.text
+          = "Stopped without convergence: TetGen returned the same " + std::to_string(new_tets)
+            + " tetrahedra (look at the cap on Steiner points and at the kept boundary).";
+      }
+    return decision;
+  }
+} // namespace tetradapt::adapt
