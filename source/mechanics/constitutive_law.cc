@@ -15,7 +15,8 @@ namespace tetradapt::mechanics
       = std::function<std::unique_ptr<ConstitutiveLaw>(const scene::MaterialParameters &)>;
 
     /** A new law needs one line here. */
-    const std::map<std::string, Maker> &makers()
+    const std::map<std::string, Maker> &
+    makers()
     {
       static const std::map<std::string, Maker> table{
         {"linear elastic", [](const scene::MaterialParameters &p) {
@@ -25,7 +26,8 @@ namespace tetradapt::mechanics
     }
   } // namespace
 
-  std::vector<std::string> law_names()
+  std::vector<std::string>
+  law_names()
   {
     std::vector<std::string> names;
     for (const auto &entry : makers())
@@ -33,7 +35,8 @@ namespace tetradapt::mechanics
     return names;
   }
 
-  std::unique_ptr<ConstitutiveLaw> make_law(const scene::MaterialParameters &parameters)
+  std::unique_ptr<ConstitutiveLaw>
+  make_law(const scene::MaterialParameters &parameters)
   {
     const auto maker = makers().find(parameters.law);
     if (maker == makers().end())

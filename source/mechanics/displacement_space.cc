@@ -14,7 +14,8 @@ namespace tetradapt::mechanics
     using dealii::types::global_dof_index;
 
     /** The unknowns of a set of nodes, three each. */
-    IndexSet triple(const IndexSet &nodes)
+    IndexSet
+    triple(const IndexSet &nodes)
     {
       IndexSet unknowns(3 * nodes.size());
       for (auto interval = nodes.begin_intervals(); interval != nodes.end_intervals(); ++interval)
@@ -68,8 +69,8 @@ namespace tetradapt::mechanics
         }
   }
 
-  void DisplacementSpace::gather(const Vector                      &vector,
-                                 std::vector<dealii::Tensor<1, 3>> &field) const
+  void
+  DisplacementSpace::gather(const Vector &vector, std::vector<dealii::Tensor<1, 3>> &field) const
   {
     field.assign(n_field_nodes(), dealii::Tensor<1, 3>());
     for (unsigned int l = 0; l < n_owned; ++l)

@@ -15,30 +15,35 @@ namespace tetradapt::mechanics
                              + " and nu = " + std::to_string(poisson_ratio) + ".");
   }
 
-  bool LinearElastic::is_linear() const
+  bool
+  LinearElastic::is_linear() const
   {
     return true;
   }
 
-  SymmetricTensor<2, 3> LinearElastic::stress(const Tensor<2, 3> &G) const
+  SymmetricTensor<2, 3>
+  LinearElastic::stress(const Tensor<2, 3> &G) const
   {
     const SymmetricTensor<2, 3> strain = symmetrize(G);
     return lambda * trace(strain) * dealii::unit_symmetric_tensor<3>() + 2. * mu * strain;
   }
 
-  SymmetricTensor<4, 3> LinearElastic::tangent(const Tensor<2, 3> &) const
+  SymmetricTensor<4, 3>
+  LinearElastic::tangent(const Tensor<2, 3> &) const
   {
     const auto I = dealii::unit_symmetric_tensor<3>();
     return lambda * outer_product(I, I) + 2. * mu * dealii::identity_tensor<3>();
   }
 
-  double LinearElastic::energy_density(const SymmetricTensor<2, 3> &strain) const
+  double
+  LinearElastic::energy_density(const SymmetricTensor<2, 3> &strain) const
   {
     const double volumetric = trace(strain);
     return lambda * volumetric * volumetric + 2. * mu * (strain * strain);
   }
 
-  double LinearElastic::complementary_density(const SymmetricTensor<2, 3> &stress) const
+  double
+  LinearElastic::complementary_density(const SymmetricTensor<2, 3> &stress) const
   {
     const double pressure_part = trace(stress);
     return (stress * stress - lambda / (3. * lambda + 2. * mu) * pressure_part * pressure_part)

@@ -11,7 +11,8 @@ namespace tetradapt::mechanics
 {
   namespace
   {
-    std::string list_regions(const std::set<int> &regions, const std::map<int, std::string> &names)
+    std::string
+    list_regions(const std::set<int> &regions, const std::map<int, std::string> &names)
     {
       std::ostringstream text;
       for (const int region : regions)
@@ -25,10 +26,11 @@ namespace tetradapt::mechanics
     }
   } // namespace
 
-  std::set<int> resolve_regions(const std::vector<int>         &ids,
-                                const std::vector<std::string> &groups,
-                                const mesh::TetMesh            &mesh,
-                                const std::string              &what)
+  std::set<int>
+  resolve_regions(const std::vector<int>         &ids,
+                  const std::vector<std::string> &groups,
+                  const mesh::TetMesh            &mesh,
+                  const std::string              &what)
   {
     const std::set<int> existing(mesh.regions.begin(), mesh.regions.end());
     if (ids.empty() && groups.empty())
@@ -107,7 +109,8 @@ namespace tetradapt::mechanics
         }
   }
 
-  const MaterialMap::Entry &MaterialMap::entry(int region) const
+  const MaterialMap::Entry &
+  MaterialMap::entry(int region) const
   {
     const auto found = entries.find(region);
     if (found == entries.end())
@@ -117,22 +120,26 @@ namespace tetradapt::mechanics
     return found->second;
   }
 
-  const ConstitutiveLaw &MaterialMap::law(int region) const
+  const ConstitutiveLaw &
+  MaterialMap::law(int region) const
   {
     return *entry(region).law;
   }
 
-  const scene::MaterialParameters &MaterialMap::parameters(int region) const
+  const scene::MaterialParameters &
+  MaterialMap::parameters(int region) const
   {
     return *entry(region).parameters;
   }
 
-  bool MaterialMap::has_thermal_strain() const
+  bool
+  MaterialMap::has_thermal_strain() const
   {
     return thermal;
   }
 
-  SymmetricTensor<2, 3> MaterialMap::thermal_strain(int region, const dealii::Point<3> &point) const
+  SymmetricTensor<2, 3>
+  MaterialMap::thermal_strain(int region, const dealii::Point<3> &point) const
   {
     double temperature = 0.;
     if (thermal)

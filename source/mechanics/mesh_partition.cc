@@ -15,7 +15,8 @@ namespace tetradapt::mechanics
   namespace
   {
     /** Spreads the lower 21 bits of @p v to every third bit. */
-    std::uint64_t spread_bits(std::uint64_t v)
+    std::uint64_t
+    spread_bits(std::uint64_t v)
     {
       v &= 0x1fffff;
       v = (v | v << 32) & 0x1f00000000ffffULL;
@@ -27,7 +28,8 @@ namespace tetradapt::mechanics
     }
 
     /** Cell numbers sorted by the Morton code of the centroids. */
-    std::vector<unsigned int> morton_order(const mesh::TetMesh &mesh)
+    std::vector<unsigned int>
+    morton_order(const mesh::TetMesh &mesh)
     {
       const auto box    = mesh::bounding_box(mesh);
       double     extent = 0.;
@@ -55,9 +57,10 @@ namespace tetradapt::mechanics
       return order;
     }
 
-    void build_serial(const mesh::TetMesh             &mesh,
-                      const std::vector<unsigned int> &order,
-                      dealii::Triangulation<3>        &tria)
+    void
+    build_serial(const mesh::TetMesh             &mesh,
+                 const std::vector<unsigned int> &order,
+                 dealii::Triangulation<3>        &tria)
     {
       std::vector<dealii::CellData<3>> cells(mesh.n_cells(), dealii::CellData<3>(4));
       for (unsigned int i = 0; i < cells.size(); ++i)

@@ -48,14 +48,17 @@ namespace tetradapt::adapt
   public:
     virtual ~Observer() = default;
 
-    virtual void run_started(const scene::Scene &)
+    virtual void
+    run_started(const scene::Scene &)
     {
     }
-    virtual void cycle_done(const CycleEvent &)
+    virtual void
+    cycle_done(const CycleEvent &)
     {
     }
     /** @p reason says why the loop stopped, for the user. */
-    virtual void run_done(const std::string & /*reason*/)
+    virtual void
+    run_done(const std::string & /*reason*/)
     {
     }
   };

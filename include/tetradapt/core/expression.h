@@ -34,8 +34,10 @@ namespace tetradapt::core
     Expression(const std::string &text, const std::string &what);
     Expression(const Expression &other);
     Expression(Expression &&other) noexcept;
-    Expression &operator=(const Expression &other);
-    Expression &operator=(Expression &&other) noexcept;
+    Expression &
+    operator=(const Expression &other);
+    Expression &
+    operator=(Expression &&other) noexcept;
     ~Expression();
 
     /**
@@ -43,15 +45,19 @@ namespace tetradapt::core
      * @throws InputError naming the expression and the point if the value is
      *         not finite.
      */
-    double operator()(const Point<3> &point, double t = 0.) const;
+    double
+    operator()(const Point<3> &point, double t = 0.) const;
 
     /** As operator(), but true for any value other than zero. */
-    bool holds(const Point<3> &point, double t = 0.) const;
+    bool
+    holds(const Point<3> &point, double t = 0.) const;
 
     /** Whether the text names none of x, y, z, t. */
-    bool is_constant() const;
+    bool
+    is_constant() const;
 
-    const std::string &text() const;
+    const std::string &
+    text() const;
 
   private:
     struct Implementation;
@@ -65,9 +71,11 @@ namespace tetradapt::core
     /** @throws InputError as Expression does; @p what names the place. */
     VectorExpression(const std::array<std::string, 3> &texts, const std::string &what);
 
-    Tensor<1, 3> operator()(const Point<3> &point, double t = 0.) const;
+    Tensor<1, 3>
+    operator()(const Point<3> &point, double t = 0.) const;
 
-    bool is_constant() const;
+    bool
+    is_constant() const;
 
   private:
     std::array<Expression, 3> components;

@@ -28,16 +28,23 @@ namespace tetradapt::core
     using Sink = std::function<void(LogLevel, const std::string &)>;
 
     /** Adds @p sink and returns a number by which it can be removed. */
-    unsigned int add_sink(Sink sink);
-    void         remove_sink(unsigned int number);
+    unsigned int
+    add_sink(Sink sink);
+    void
+    remove_sink(unsigned int number);
 
-    void progress(const std::string &text) const;
-    void info(const std::string &text) const;
-    void warning(const std::string &text) const;
-    void error(const std::string &text) const;
+    void
+    progress(const std::string &text) const;
+    void
+    info(const std::string &text) const;
+    void
+    warning(const std::string &text) const;
+    void
+    error(const std::string &text) const;
 
   private:
-    void send(LogLevel level, const std::string &text) const;
+    void
+    send(LogLevel level, const std::string &text) const;
 
     std::vector<std::pair<unsigned int, Sink>> sinks;
     unsigned int                               next_number = 0;

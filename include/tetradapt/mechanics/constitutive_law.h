@@ -27,30 +27,37 @@ namespace tetradapt::mechanics
 
     /** Whether stress() is a linear function of G, so that one linear solve
      * suffices and tangent() is the same everywhere. */
-    virtual bool is_linear() const = 0;
+    virtual bool
+    is_linear() const = 0;
 
     /** Cauchy stress at displacement gradient @p G, without thermal strain. */
-    virtual SymmetricTensor<2, 3> stress(const Tensor<2, 3> &G) const = 0;
+    virtual SymmetricTensor<2, 3>
+    stress(const Tensor<2, 3> &G) const = 0;
 
     /** Derivative of the stress with respect to the strain at @p G. */
-    virtual SymmetricTensor<4, 3> tangent(const Tensor<2, 3> &G) const = 0;
+    virtual SymmetricTensor<4, 3>
+    tangent(const Tensor<2, 3> &G) const = 0;
 
     /** strain : C : strain with C the tangent at rest, the density of the energy
      * norm's square. */
-    virtual double energy_density(const SymmetricTensor<2, 3> &strain) const = 0;
+    virtual double
+    energy_density(const SymmetricTensor<2, 3> &strain) const = 0;
 
     /** stress : C^-1 : stress with C the tangent at rest. */
-    virtual double complementary_density(const SymmetricTensor<2, 3> &stress) const = 0;
+    virtual double
+    complementary_density(const SymmetricTensor<2, 3> &stress) const = 0;
   };
 
   /**
    * Makes the law that @p parameters names.
    * @throws InputError listing the valid names for an unknown one.
    */
-  std::unique_ptr<ConstitutiveLaw> make_law(const scene::MaterialParameters &parameters);
+  std::unique_ptr<ConstitutiveLaw>
+  make_law(const scene::MaterialParameters &parameters);
 
   /** Names that make_law() knows. */
-  std::vector<std::string> law_names();
+  std::vector<std::string>
+  law_names();
 } // namespace tetradapt::mechanics
 
 #endif

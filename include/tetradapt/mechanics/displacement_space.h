@@ -30,78 +30,94 @@ namespace tetradapt::mechanics
                       unsigned int           degree,
                       const mesh::EdgeTable *edges);
 
-    unsigned int degree() const
+    unsigned int
+    degree() const
     {
       return polynomial_degree;
     }
     /** 4 or 10. */
-    unsigned int n_nodes_per_cell() const
+    unsigned int
+    n_nodes_per_cell() const
     {
       return polynomial_degree == 1 ? 4 : 10;
     }
     /** 3 times the number of nodes, over all ranks. */
-    unsigned long n_dofs() const
+    unsigned long
+    n_dofs() const
     {
       return partitioner->size();
     }
-    unsigned int n_owned_nodes() const
+    unsigned int
+    n_owned_nodes() const
     {
       return n_owned;
     }
-    unsigned int n_local_nodes() const
+    unsigned int
+    n_local_nodes() const
     {
       return field_nodes.size();
     }
     /** The field node of a local node. */
-    unsigned int field_node(unsigned int local_node) const
+    unsigned int
+    field_node(unsigned int local_node) const
     {
       return field_nodes[local_node];
     }
     /** The local node of a field node; numbers::invalid_unsigned_int elsewhere. */
-    unsigned int local_node(unsigned int field_node) const
+    unsigned int
+    local_node(unsigned int field_node) const
     {
       return local_nodes[field_node];
     }
     /** Global number of a local node. */
-    dealii::types::global_dof_index global_node(unsigned int local_node) const
+    dealii::types::global_dof_index
+    global_node(unsigned int local_node) const
     {
       return partitioner->local_to_global(3 * local_node) / 3;
     }
     /** Mesh cells that touch a node owned by this rank, in the order of the
      * triangulation: what assembling complete rows needs. */
-    const std::vector<unsigned int> &touching_cells() const
+    const std::vector<unsigned int> &
+    touching_cells() const
     {
       return cells;
     }
     /** Field node @p i (vertices, then edges) of mesh cell @p cell. */
-    unsigned int cell_node(unsigned int cell, unsigned int i) const
+    unsigned int
+    cell_node(unsigned int cell, unsigned int i) const
     {
       return i < 4 ? mesh.cells[cell][i] : mesh.n_points() + edges->cell_edges[cell][i - 4];
     }
-    unsigned int n_field_nodes() const
+    unsigned int
+    n_field_nodes() const
     {
       return local_nodes.size();
     }
-    const mesh::TetMesh &tet_mesh() const
+    const mesh::TetMesh &
+    tet_mesh() const
     {
       return mesh;
     }
-    const mesh::EdgeTable *edge_table() const
+    const mesh::EdgeTable *
+    edge_table() const
     {
       return edges;
     }
-    MPI_Comm communicator() const
+    MPI_Comm
+    communicator() const
     {
       return mpi_communicator;
     }
     /** Layout of vectors: owned and ghost unknowns of this rank. */
-    const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &vector_layout() const
+    const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &
+    vector_layout() const
     {
       return partitioner;
     }
 
     /** Puts the owned values of @p vector in @p field, on every rank. Collective. */
-    void gather(const Vector &vector, std::vector<dealii::Tensor<1, 3>> &field) const;
+    void
+    gather(const Vector &vector, std::vector<dealii::Tensor<1, 3>> &field) const;
 
   private:
     const mesh::TetMesh                                       &mesh;

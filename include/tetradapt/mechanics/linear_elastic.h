@@ -17,11 +17,16 @@ namespace tetradapt::mechanics
      *  @throws core::InputError outside these bounds. */
     LinearElastic(double young_modulus, double poisson_ratio);
 
-    bool                  is_linear() const override;
-    SymmetricTensor<2, 3> stress(const Tensor<2, 3> &G) const override;
-    SymmetricTensor<4, 3> tangent(const Tensor<2, 3> &G) const override;
-    double                energy_density(const SymmetricTensor<2, 3> &strain) const override;
-    double                complementary_density(const SymmetricTensor<2, 3> &stress) const override;
+    bool
+    is_linear() const override;
+    SymmetricTensor<2, 3>
+    stress(const Tensor<2, 3> &G) const override;
+    SymmetricTensor<4, 3>
+    tangent(const Tensor<2, 3> &G) const override;
+    double
+    energy_density(const SymmetricTensor<2, 3> &strain) const override;
+    double
+    complementary_density(const SymmetricTensor<2, 3> &stress) const override;
 
   private:
     double lambda; ///< first Lame parameter

@@ -18,10 +18,11 @@ namespace tetradapt::mechanics
    * @param what is the place in messages, such as "Loads/weight".
    * @throws core::InputError for a region or a group that @p mesh does not have.
    */
-  std::set<int> resolve_regions(const std::vector<int>         &ids,
-                                const std::vector<std::string> &groups,
-                                const mesh::TetMesh            &mesh,
-                                const std::string              &what);
+  std::set<int>
+  resolve_regions(const std::vector<int>         &ids,
+                  const std::vector<std::string> &groups,
+                  const mesh::TetMesh            &mesh,
+                  const std::string              &what);
 
   /**
    * The material of every region, and the thermal strain that the scene's
@@ -36,18 +37,24 @@ namespace tetradapt::mechanics
     MaterialMap(const scene::Scene &scene, const mesh::TetMesh &mesh);
 
     /** Entries point into this object. */
-    MaterialMap(const MaterialMap &)            = delete;
-    MaterialMap &operator=(const MaterialMap &) = delete;
+    MaterialMap(const MaterialMap &) = delete;
+    MaterialMap &
+    operator=(const MaterialMap &)
+      = delete;
 
     /** The law of region @p region. */
-    const ConstitutiveLaw &law(int region) const;
+    const ConstitutiveLaw &
+    law(int region) const;
 
-    const scene::MaterialParameters &parameters(int region) const;
+    const scene::MaterialParameters &
+    parameters(int region) const;
 
-    bool has_thermal_strain() const;
+    bool
+    has_thermal_strain() const;
 
     /** Thermal strain alpha T(x) I at @p point of @p region; zero without one. */
-    SymmetricTensor<2, 3> thermal_strain(int region, const dealii::Point<3> &point) const;
+    SymmetricTensor<2, 3>
+    thermal_strain(int region, const dealii::Point<3> &point) const;
 
   private:
     struct Entry
@@ -56,7 +63,8 @@ namespace tetradapt::mechanics
       std::shared_ptr<ConstitutiveLaw> law;
       std::vector<core::Expression>    temperatures;
     };
-    const Entry &entry(int region) const;
+    const Entry &
+    entry(int region) const;
 
     std::vector<scene::MaterialParameters> materials;
     std::map<int, Entry>                   entries;

@@ -25,20 +25,24 @@ namespace tetradapt::mechanics
      * outlive this object. */
     MeshPartition(const mesh::TetMesh &mesh, MPI_Comm communicator);
 
-    const dealii::Triangulation<3> &triangulation() const
+    const dealii::Triangulation<3> &
+    triangulation() const
     {
       return *tria;
     }
-    MPI_Comm communicator() const
+    MPI_Comm
+    communicator() const
     {
       return mpi_communicator;
     }
-    const mesh::TetMesh &mesh() const
+    const mesh::TetMesh &
+    mesh() const
     {
       return tet_mesh;
     }
     /** The number in the TetMesh of an active cell of the triangulation. */
-    unsigned int mesh_cell(const dealii::Triangulation<3>::active_cell_iterator &cell) const;
+    unsigned int
+    mesh_cell(const dealii::Triangulation<3>::active_cell_iterator &cell) const;
 
   private:
     const mesh::TetMesh                      &tet_mesh;

@@ -35,13 +35,14 @@ namespace tetradapt::solve
    * @throws InputError for supports and loads that make no sense on this mesh,
    *         NumericalError if the solver fails.
    */
-  StaticSolution solve_static(const scene::Scene                  &scene,
-                              const mechanics::MaterialMap        &materials,
-                              std::shared_ptr<const mesh::TetMesh> mesh,
-                              unsigned int                         degree,
-                              MPI_Comm                             communicator,
-                              const core::Log                     &log,
-                              const mesh::NodalField              *start = nullptr);
+  StaticSolution
+  solve_static(const scene::Scene                  &scene,
+               const mechanics::MaterialMap        &materials,
+               std::shared_ptr<const mesh::TetMesh> mesh,
+               unsigned int                         degree,
+               MPI_Comm                             communicator,
+               const core::Log                     &log,
+               const mesh::NodalField              *start = nullptr);
 } // namespace tetradapt::solve
 
 #endif

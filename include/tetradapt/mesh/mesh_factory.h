@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_mesh_mesh_factory_h
+#define tetradapt_mesh_mesh_factory_h
+
+#include "tetradapt/core/log.h"
+#include "tetradapt/mesh/tet_mesh.h"
+#include "tetradapt/scene/scene.h"
+
+namespace tetradapt::mesh
+{
+  /** The selectors of the scene's supports and face loads, by name. */
+  std::vector<std::pair<std::string, scene::Selector>>
+  face_selectors(const scene::Scene &scene);
+
+  /**
+   * Makes mesh @p number of those that the scene lists (0 where it lists one): reads
+   * or generates it, meshes surfaces and boxes by TetGen, refines it to the wanted
+   * volume or size, and marks on its boundary where supports and loads act. Not
+   * collective.
+   *
+   * @throws core::InputError, core::NumericalError as the readers, the surface
+   *         checks, TetGen and select_faces() do.
+   */
+  TetMesh
+  make_mesh(const scene::Scene &scene, unsigned int number, const core::Log &log);
+} // namespace tetradapt::mesh
+
+#endif

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_solve_energies_h
+#define tetradapt_solve_energies_h
+
+#include "tetradapt/mechanics/material_map.h"
+#include "tetradapt/mesh/nodal_field.h"
+
+#include <mpi.h>
+
+namespace tetradapt::solve
+{
+  struct Energies
+  {
+    double energy = 0.; ///< int eps:C:eps = a(u,u)
+    double stored = 0.; ///< 1/2 int (eps - eps_th):C:(eps - eps_th)
+  };
+
+  /** Energies of a displacement; exact for a constant temperature. Collective:
+   * the cells are shared out over the ranks. */
+  Energies
+  compute_energies(const mesh::NodalField       &displacement,
+                   const mechanics::MaterialMap &materials,
+                   MPI_Comm                      communicator);
+} // namespace tetradapt::solve
+
+#endif

@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/adapt/driver.h"
+
+#include "tetradapt/compare/transfer.h"
+#include "tetradapt/core/exceptions.h"
+#include "tetradapt/core/on_first_rank.h"
+#include "tetradapt/estimate/estimator.h"
+#include "tetradapt/mesh/mesh_broadcast.h"
+#include "tetradapt/mesh/mesh_factory.h"
+#include "tetradapt/mesh/red_refinement.h"
+#include "tetradapt/mesh/tetgen.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace tetradapt::adapt
+{
+  namespace
+  {
+    using scene::Plan;
+    using Strategy = scene::AdaptivityParameters::Strategy;
+
+    bool
+    is_first_rank(MPI_Comm communicator)
+    {
+      int rank = 0;
+      MPI_Comm_rank(communicator, &rank);
+      return rank == 0;
+    }
+
+    std::optional<double>
+    ratio(double value, double scale)
+    {
+      return scale > 0. ? std::optional<double>(value / scale) : std::nullopt;
+    }
+
+    /** Puts the norms of a difference in the record, as absolute and relative errors. */
+    void
+    set_errors(const compare::Difference &difference, CycleRecord &record)
+    {
+      record.l2_error              = difference.l2;
+      record.h1_error              = difference.h1;
+      record.energy_error          = difference.energy;
+      record.relative_l2_error     = ratio(difference.l2, difference.l2_norm);
+      record.relative_h1_error     = ratio(difference.h1, difference.h1_norm);
+      record.relative_energy_error = ratio(difference.energy, difference.energy_norm);
+    }
+
+    double
+    largest_norm(const std::vector<dealii::Tensor<1, 3>> &values)
+    {
+      double largest = 0.;
+      for (const auto &value : values)
+        largest = std::max(largest, value.norm_square());
+      return std::sqrt(largest);
+    }
+  } // namespace
+
+  Driver::Driver(const scene::Scene            &scene,
+                 const scene::Plan             &plan,
+                 MPI_Comm                       communicator,
+                 const core::Log               &log,
+                 core::StageTimer              &timer,
+                 const std::vector<Observer *> &observers,
+                 MeshDescription                describe_mesh)
+    : scene(scene), plan(plan), communicator(communicator), log(log), timer(timer),
+      observers(observers), describe_mesh(std::move(describe_mesh)),
+      drive(estimate::drive_of(scene))
+  {
+  }
+
+  void
+  Driver::run()
+  {
+    const bool first = is_first_rank(communicator);
+    if (first)
+      for (Observer *observer : observers)
+        observer->run_started(scene);
+
+    make_initial_mesh(0);
+    make_reference();
+    StopDecision decision;
+    for (unsigned int number = 0; !decision.stop(); ++number)
+      {
+        Cycle cycle = solve_cycle(number);
+        compare_and_estimate(cycle);
+        history.push_back(cycle.record);
+        core::on_first_rank(communicator, [&]() { announce(cycle); });
+        decision = decide(cycle);
+        for (const auto &warning : decision.warnings)
+          log.warning("cycle " + std::to_string(number) + ": " + warning);
+        if (!decision.stop())
+          decision = next_mesh(cycle);
+      }
+    if (first)
+      for (Observer *observer : observers)
+        observer->run_done(decision.text);
+    if (decision.success)
+      log.info("Stopped: " + decision.text);
+    else
+      log.warning("Stopped: " + decision.text);
+  }
+
+  void
+  Driver::make_initial_mesh(unsigned int number)
+  {
+    const auto scope = timer.scope("mesh");
+    log.progress("making the mesh");
+    mesh = mesh::make_on_first_rank(communicator,
+                                    [&]() { return mesh::make_mesh(scene, number, log); });
+    // The reference keeps the first mesh's map; a later mesh may have no region
+    // that this one does not know.
+    if (materials == nullptr)
+      materials = std::make_unique<mechanics::MaterialMap>(scene, *mesh);
+    start.reset();
+    log.info((number == 0 ? "Initial mesh: " : "Mesh " + std::to_string(number) + ": ")
+             + describe_mesh(*mesh));
+  }
+
+  void
+  Driver::make_reference()
+  {
+    if (!plan.uses_reference())
+      return;
+    const auto scope = timer.scope("reference");
+    reference        = std::make_unique<compare::Reference>(
+      compare::make_reference(scene, *materials, mesh, communicator, log));
+    sampling = std::make_shared<compare::ReferenceSampling>(reference->displacement,
+                                                            *materials,
+                                                            communicator);
+    std::ostringstream text;
+    text << "Reference: " << reference->description << "; its own relative energy error is about "
+         << reference->estimated_error / std::sqrt(reference->energy);
+    log.info(text.str());
+  }
+
+  Driver::Cycle
+  Driver::solve_cycle(unsigned int number)
+  {
+    Cycle cycle;
+    cycle.record.cycle = number;
+    {
+      const auto scope = timer.scope("solve");
+      cycle.solution   = solve::solve_static(
+        scene, *materials, mesh, scene.degree, communicator, log, start.get());
+    }
+    cycle.record.points           = mesh->n_points();
+    cycle.record.tets             = mesh->n_cells();
+    cycle.record.dofs             = cycle.solution.n_dofs;
+    cycle.record.strain_energy    = cycle.solution.strain_energy;
+    cycle.record.max_displacement = largest_norm(cycle.solution.displacement->values);
+    cycle.record.iterations       = cycle.solution.iterations;
+    if (!std::isfinite(cycle.record.strain_energy) || !std::isfinite(cycle.record.max_displacement))
+      throw core::NumericalError(
+        "The solution is not finite. Look at the size of the loads and material constants: their "
+        "product leaves the range of double precision.");
+    cycle.comparison = std::make_unique<estimate::Comparison>(
+      cycle.solution.displacement, *materials, scene.truth, sampling, communicator);
+    return cycle;
+  }
+
+  void
+  Driver::compare_and_estimate(Cycle &cycle)
+  {
+    {
+      const auto scope = timer.scope("estimate");
+      log.progress("comparing and estimating");
+      fill_errors(cycle);
+      if (plan.needs(Plan::marking) || plan.needs(Plan::sizing))
+        cycle.indicators
+          = estimate::make_estimator(estimate::estimator_name(scene.adaptivity.driver))
+              ->estimate({*cycle.comparison})
+              .indicators;
+    }
+    // Seconds since the last cycle ended, so that a row tells what the cycle cost.
+    CycleRecord &record     = cycle.record;
+    record.seconds_mesh     = timer.wall("mesh");
+    record.seconds_solve    = timer.wall("solve");
+    record.seconds_estimate = timer.wall("estimate") + timer.wall("marking");
+    record.seconds_total    = timer.total_wall() - timer.wall("reference");
+    for (const CycleRecord &before : history)
+      {
+        record.seconds_mesh -= before.seconds_mesh;
+        record.seconds_solve -= before.seconds_solve;
+        record.seconds_estimate -= before.seconds_estimate;
+        record.seconds_total -= before.seconds_total;
+      }
+  }
+
+  void
+  Driver::fill_errors(Cycle &cycle)
+  {
+    CycleRecord          &record     = cycle.record;
+    estimate::Comparison &comparison = *cycle.comparison;
+    if (plan.needs(Plan::extrapolation))
+      {
+        const compare::Difference &difference = comparison.to_reference();
+        set_errors(difference, record);
+        record.estimate          = difference.energy;
+        record.relative_estimate = record.relative_energy_error;
+        record.reference_error   = ratio(reference->estimated_error, difference.energy_norm);
+      }
+    std::optional<double> true_error;
+    if (plan.needs(Plan::known_energy))
+      {
+        const auto known
+          = estimate::error_from_known_energy(scene.truth.energy, cycle.solution.energy, drive);
+        if (!known.warning.empty())
+          log.warning(known.warning);
+        if (known.error)
+          {
+            record.energy_error          = known.error;
+            record.relative_energy_error = known.relative_error;
+            true_error                   = known.error;
+          }
+      }
+    if (plan.needs(Plan::exact_comparison))
+      {
+        set_errors(comparison.to_truth(), record);
+        true_error = record.energy_error;
+      }
+    record.effectivity = estimate::effectivity(record.estimate, true_error);
+    if (plan.needs(Plan::nodal_ren))
+      {
+        const compare::NodalRen &ren = comparison.ren();
+        record.mean_ren              = ren.mean;
+        record.max_ren               = ren.max;
+      }
+  }
+
+  void
+  Driver::announce(const Cycle &cycle)
+  {
+    const auto                 scope = timer.scope("output");
+    const std::vector<double> *ren
+      = plan.needs(Plan::nodal_ren) ? &cycle.comparison->ren().values : nullptr;
+    const CycleEvent event{cycle.record,
+                           *cycle.solution.displacement,
+                           *materials,
+                           cycle.indicators.empty() ? nullptr : &cycle.indicators,
+                           ren};
+    for (Observer *observer : observers)
+      observer->cycle_done(event);
+    std::ostringstream text;
+    text << "Cycle " << cycle.record.cycle << ": " << cycle.solution.solver;
+    if (cycle.record.iterations > 0)
+      text << ", " << cycle.record.iterations << " iterations";
+    log.info(text.str());
+  }
+
+  StopDecision
+  Driver::decide(const Cycle &) const
+  {
+    StoppingContext context;
+    context.degree = scene.degree;
+    context.true_energy_error
+      = plan.needs(Plan::exact_comparison) || plan.needs(Plan::known_energy);
+    context.true_ren        = plan.needs(Plan::exact_comparison);
+    context.n_meshes        = scene.mesh.n_meshes();
+    context.elapsed_seconds = timer.total_wall();
+    if (reference != nullptr)
+      {
+        context.reference_tets   = reference->displacement->mesh().n_cells();
+        context.reference_degree = reference->displacement->degree();
+      }
+    // Clocks differ from rank to rank; the decision must not.
+    core::broadcast_bytes(&context.elapsed_seconds, sizeof(double), communicator);
+    return decide_stop(scene.adaptivity, context, history);
+  }
+
+  StopDecision
+  Driver::next_mesh(Cycle &cycle)
+  {
+    switch (scene.adaptivity.strategy)
+      {
+      case Strategy::none:
+        return decide_new_mesh(mesh->n_cells(), mesh->n_cells());
+      case Strategy::mesh_list:
+        make_initial_mesh(cycle.record.cycle + 1);
+        return {};
+      case Strategy::uniform:
+        {
+          const auto scope = timer.scope("mesh");
+          mesh             = std::make_shared<mesh::TetMesh>(
+            mesh::red_refine(*mesh,
+                             scene.degree == 2 ? &cycle.solution.displacement->edges() : nullptr));
+          prepare_start(cycle);
+          return {};
+        }
+      case Strategy::adaptive:
+        return adapt_mesh(cycle);
+      }
+    return {};
+  }
+
+  StopDecision
+  Driver::adapt_mesh(Cycle &cycle)
+  {
+    SizeField field;
+    {
+      const auto scope = timer.scope("marking");
+      log.progress("marking and sizing");
+      SizeFieldOptions options
+        = make_size_field_options(scene.adaptivity, scene.tetgen, scene.degree, mesh->n_cells());
+      options.obtained_over_predicted = obtained_over_predicted;
+      if (const auto marker = make_marker(scene.adaptivity))
+        field = marked_size_field(*mesh, marker->mark(cycle.indicators, *mesh), options);
+      else
+        field = optimal_size_field(*mesh, cycle.indicators, options);
+    }
+    const double largest = *std::max_element(cycle.indicators.begin(), cycle.indicators.end());
+    if (largest == 0. || field.n_refined == 0)
+      return decide_nothing_to_refine(largest);
+
+    const unsigned int old_tets = mesh->n_cells();
+    {
+      const auto scope = timer.scope("mesh");
+      log.progress("TetGen refines " + std::to_string(old_tets) + " tetrahedra");
+      const mesh::Tetgen tetgen(scene.tetgen);
+      const auto         old_mesh = mesh;
+      mesh                        = mesh::make_on_first_rank(communicator, [&]() {
+        mesh::TetgenReport report;
+        mesh::TetMesh      refined = tetgen.refine(*old_mesh, field.sizing, &report);
+        if (report.cap_reached)
+          log.warning("TetGen stopped at TetGen/Steiner points, before the wanted sizes were "
+                                             "reached.");
+        if (report.oversized_cells > 0)
+          log.warning(std::to_string(report.oversized_cells)
+                      + " tetrahedra are larger than asked for.");
+        return refined;
+      });
+      std::ostringstream text;
+      text << "Refined from " << old_tets << " to " << mesh->n_cells() << " tetrahedra ("
+           << static_cast<unsigned long>(field.predicted_tets)
+           << " predicted): " << describe_mesh(*mesh);
+      log.info(text.str());
+    }
+    if (field.predicted_tets > 0.)
+      obtained_over_predicted
+        *= std::clamp(mesh->n_cells() / field.predicted_tets, 0.5, 2.) / obtained_over_predicted;
+    prepare_start(cycle);
+    return decide_new_mesh(old_tets, mesh->n_cells());
+  }
+
+  void
+  Driver::prepare_start(Cycle &cycle)
+  {
+    // A small system is factorised, without a first iterate.
+    const auto scope = timer.scope("estimate");
+    if (mesh->n_points() > cycle.record.points && plan.needs(Plan::multigrid_solver))
+      start = std::make_unique<mesh::NodalField>(
+        compare::interpolate(*cycle.solution.displacement, cycle.comparison->locator(), mesh));
+  }
+} // namespace tetradapt::adapt

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/cli/run_scene.h"
+
+#include "tetradapt/adapt/driver.h"
+#include "tetradapt/core/on_first_rank.h"
+#include "tetradapt/report/convergence_table.h"
+#include "tetradapt/report/log_sinks.h"
+#include "tetradapt/report/mesh_summary.h"
+#include "tetradapt/report/output_directory.h"
+#include "tetradapt/report/vtu_series.h"
+#include "tetradapt/scene/plan.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <iostream>
+#include <memory>
+
+namespace tetradapt::cli
+{
+  namespace
+  {
+    /** What watches a run on the first rank; empty on the others. */
+    class Watchers
+    {
+    public:
+      Watchers(const scene::Scene &scene,
+               const std::string  &effective_parameters,
+               const RunOptions   &options,
+               core::Log          &log)
+        : log(log), terminal(std::make_unique<report::TerminalSink>(
+                      log, std::cerr, report::TerminalSink::stderr_options(options.quiet))),
+          directory(scene), log_file(log, directory.file("log.txt"))
+      {
+        directory.write_parameters(effective_parameters);
+        const std::string tables = scene.output.tables ? directory.path() : "";
+        std::ostream     *rows   = options.quiet ? nullptr : &std::cout;
+        if (rows != nullptr || scene.output.tables)
+          observers.push_back(std::make_unique<report::ConvergenceTable>(tables, rows, log));
+        if (scene.output.vtu)
+          observers.push_back(
+            std::make_unique<report::VtuSeries>(directory.path(), scene.output.stress));
+      }
+
+      std::vector<adapt::Observer *>
+      list() const
+      {
+        std::vector<adapt::Observer *> pointers;
+        for (const auto &observer : observers)
+          pointers.push_back(observer.get());
+        return pointers;
+      }
+
+      /** Puts an error in log.txt; the terminal gets it from the caller. */
+      void
+      log_failure(const std::string &message)
+      {
+        terminal.reset();
+        log.error(message);
+      }
+
+      void
+      close_log()
+      {
+        log_file.close();
+      }
+
+      std::string
+      files_to_look_at() const
+      {
+        return directory.files_to_look_at();
+      }
+
+    private:
+      core::Log                                    &log;
+      std::unique_ptr<report::TerminalSink>         terminal;
+      report::OutputDirectory                       directory;
+      report::LogFile                               log_file;
+      std::vector<std::unique_ptr<adapt::Observer>> observers;
+    };
+
+    void
+    announce_start(const scene::Scene &scene,
+                   const scene::Plan  &plan,
+                   const RunOptions   &options,
+                   MPI_Comm            communicator,
+                   const core::Log    &log)
+    {
+      log.info(options.command_line);
+      log.info((scene.title.empty() ? scene.name : scene.title) + " (" + scene.file + "), "
+               + std::to_string(dealii::Utilities::MPI::n_mpi_processes(communicator))
+               + " MPI rank(s)");
+      for (const auto &warning : scene.warnings())
+        log.warning(warning);
+      log.info(plan.text());
+    }
+  } // namespace
+
+  void
+  run_scene(const scene::Scene &scene,
+            const std::string  &effective_parameters,
+            const RunOptions   &options,
+            MPI_Comm            communicator)
+  {
+    core::Log                 log;
+    core::StageTimer          timer;
+    const scene::Plan         plan(scene);
+    std::unique_ptr<Watchers> watchers;
+    const bool                first = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+    core::on_first_rank(communicator, [&]() {
+      watchers = std::make_unique<Watchers>(scene, effective_parameters, options, log);
+    });
+    announce_start(scene, plan, options, communicator, log);
+    try
+      {
+        const std::vector<adapt::Observer *> observers
+          = first ? watchers->list() : std::vector<adapt::Observer *>();
+        adapt::Driver(scene, plan, communicator, log, timer, observers, report::mesh_line).run();
+      }
+    catch (const std::exception &error)
+      {
+        // For log.txt; the caller prints it on the terminal.
+        if (first)
+          watchers->log_failure(scene.with_place(error.what()));
+        throw;
+      }
+    log.info(timer.table());
+    if (first)
+      {
+        watchers->close_log();
+        log.info(watchers->files_to_look_at());
+      }
+  }
+} // namespace tetradapt::cli

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/mechanics/supports.h"
+
+#include "tetradapt/core/exceptions.h"
+#include "tetradapt/core/expression.h"
+#include "tetradapt/mechanics/rigid_motions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <sstream>
+#include <unordered_map>
+
+namespace tetradapt::mechanics
+{
+  namespace
+  {
+    using dealii::Point;
+    using dealii::Tensor;
+
+    std::uint64_t
+    edge_key(unsigned int a, unsigned int b)
+    {
+      return static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b);
+    }
+
+    std::string
+    at(const Point<3> &p)
+    {
+      std::ostringstream text;
+      text << "(" << p[0] << ", " << p[1] << ", " << p[2] << ")";
+      return text.str();
+    }
+
+    Point<3>
+    position(const mesh::TetMesh &mesh, const mesh::EdgeTable *edges, unsigned int node)
+    {
+      if (node < mesh.n_points())
+        return mesh.points[node];
+      const auto &edge = edges->edges[node - mesh.n_points()];
+      return mesh.points[edge[0]] + 0.5 * (mesh.points[edge[1]] - mesh.points[edge[0]]);
+    }
+
+    /** Prescribes one component of one node, or throws if another support has
+     * prescribed another value. */
+    class Prescriber
+    {
+    public:
+      Prescriber(const std::vector<scene::SupportParameters> &supports,
+                 const mesh::TetMesh                         &mesh,
+                 const mesh::EdgeTable                       *edges,
+                 PrescribedDisplacement                      &result)
+        : supports(supports), mesh(mesh), edges(edges), result(result), owners(result.fixed.size())
+      {
+      }
+
+      void
+      add_node(unsigned int support, unsigned int node, const core::VectorExpression &displacement)
+      {
+        const Point<3>     x     = position(mesh, edges, node);
+        const Tensor<1, 3> value = displacement(x);
+        for (unsigned int c = 0; c < 3; ++c)
+          if (supports[support].components[c])
+            {
+              if (result.is_fixed(node, c))
+                check_agreement(support, node, c, x, value);
+              result.fixed[node] |= 1u << c;
+              result.values[node][c] = value[c];
+              owners[node][c]        = support;
+            }
+      }
+
+    private:
+      void
+      check_agreement(unsigned int        support,
+                      unsigned int        node,
+                      unsigned int        c,
+                      const Point<3>     &x,
+                      const Tensor<1, 3> &value) const
+      {
+        const double before = result.values[node][c];
+        const double size   = std::max(std::abs(before), std::abs(value[c]));
+        if (std::abs(before - value[c]) <= 1e-9 * size)
+          return;
+        std::ostringstream message;
+        message << "Supports/" << supports[owners[node][c]].name << " and Supports/"
+                << supports[support].name << " contradict each other at " << at(x)
+                << ": displacement component "
+                << "xyz"[c] << " is " << before << " by the one and " << value[c]
+                << " by the other. Leave the component out of one of them, or let their faces not "
+                   "touch.";
+        throw core::InputError(message.str());
+      }
+
+      const std::vector<scene::SupportParameters> &supports;
+      const mesh::TetMesh                         &mesh;
+      const mesh::EdgeTable                       *edges;
+      PrescribedDisplacement                      &result;
+      std::vector<std::array<unsigned int, 3>>     owners;
+    };
+  } // namespace
+
+  bool
+  PrescribedDisplacement::is_homogeneous() const
+  {
+    return std::all_of(values.begin(), values.end(), [](const auto &v) { return v == 0. * v; });
+  }
+
+  std::vector<std::array<unsigned int, 6>>
+  boundary_face_nodes(const mesh::TetMesh &mesh, const mesh::EdgeTable *edges)
+  {
+    std::vector<std::array<unsigned int, 6>>        nodes(mesh.faces.size());
+    std::unordered_map<std::uint64_t, unsigned int> numbers;
+    std::vector<bool>                               on_boundary(mesh.n_points(), false);
+    for (const auto &face : mesh.faces)
+      for (unsigned int i = 0; i < 3; ++i)
+        on_boundary[face.vertices[i]] = true;
+    if (edges != nullptr)
+      {
+        numbers.reserve(2 * mesh.faces.size());
+        for (const auto &face : mesh.faces)
+          for (unsigned int i = 0; i < 3; ++i)
+            numbers[edge_key(face.vertices[i], face.vertices[(i + 1) % 3])] = 0;
+        for (unsigned int e = 0; e < edges->edges.size(); ++e)
+          {
+            const auto &edge = edges->edges[e];
+            if (!on_boundary[edge[0]] || !on_boundary[edge[1]])
+              continue;
+            const auto found = numbers.find(edge_key(edge[0], edge[1]));
+            if (found != numbers.end())
+              found->second = mesh.n_points() + e;
+          }
+      }
+    for (unsigned int f = 0; f < mesh.faces.size(); ++f)
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          const auto &v   = mesh.faces[f].vertices;
+          nodes[f][i]     = v[i];
+          nodes[f][3 + i] = edges == nullptr ? v[i] : numbers.at(edge_key(v[i], v[(i + 1) % 3]));
+        }
+    return nodes;
+  }
+
+  PrescribedDisplacement
+  prescribe(const std::vector<scene::SupportParameters> &supports,
+            const mesh::TetMesh                         &mesh,
+            const mesh::EdgeTable                       *edges)
+  {
+    const unsigned int     n_nodes = mesh.n_points() + (edges == nullptr ? 0 : edges->edges.size());
+    PrescribedDisplacement result;
+    result.fixed.assign(n_nodes, 0);
+    result.values.resize(n_nodes);
+
+    const auto   face_nodes = boundary_face_nodes(mesh, edges);
+    Prescriber   prescriber(supports, mesh, edges, result);
+    unsigned int n_per_face = edges == nullptr ? 3 : 6;
+    for (unsigned int s = 0; s < supports.size(); ++s)
+      {
+        const core::VectorExpression displacement(supports[s].displacement,
+                                                  "Supports/" + supports[s].name + "/Displacement");
+        std::vector<bool>            done(n_nodes, false);
+        for (unsigned int f = 0; f < mesh.faces.size(); ++f)
+          {
+            const auto &selections = mesh.patches[mesh.faces[f].patch].selections;
+            if (std::find(selections.begin(), selections.end(), "Supports/" + supports[s].name)
+                == selections.end())
+              continue;
+            for (unsigned int i = 0; i < n_per_face; ++i)
+              if (!done[face_nodes[f][i]])
+                {
+                  done[face_nodes[f][i]] = true;
+                  prescriber.add_node(s, face_nodes[f][i], displacement);
+                }
+          }
+      }
+    check_rigid_motions(mesh, result);
+    return result;
+  }
+} // namespace tetradapt::mechanics

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/mesh/mesh_factory.h"
+
+#include "tetradapt/geometry/remeshing.h"
+#include "tetradapt/geometry/surface_io.h"
+#include "tetradapt/mesh/bricks.h"
+#include "tetradapt/mesh/plc.h"
+#include "tetradapt/mesh/selection.h"
+#include "tetradapt/mesh/size_function.h"
+#include "tetradapt/mesh/tetgen.h"
+#include "tetradapt/mesh/volume_reader.h"
+
+#include <sstream>
+
+namespace tetradapt::mesh
+{
+  namespace
+  {
+    /** Entry @p number of a list, or its only one. */
+    template <typename T>
+    const T &
+    entry(const std::vector<T> &list, unsigned int number)
+    {
+      return list[list.size() == 1 ? 0 : number];
+    }
+
+    geometry::SurfaceMesh
+    load_surface(const scene::MeshParameters &parameters,
+                 const std::string           &file,
+                 const core::Log             &log)
+    {
+      log.progress("reading " + file);
+      geometry::SurfaceMesh surface = geometry::read_surface(file);
+      if (parameters.surface_edge_length == 0.)
+        return surface;
+      log.progress("remeshing the surface");
+      const auto remeshed
+        = geometry::remesh(surface, parameters.surface_edge_length, parameters.feature_angle, file);
+      std::ostringstream text;
+      text << "Surface " << file << ": " << surface.triangles.size() << " triangles remeshed to "
+           << remeshed.surface.mesh.triangles.size() << " with edges of about "
+           << parameters.surface_edge_length << "; its volume changed by "
+           << 100. * remeshed.volume_change << " %";
+      log.info(text.str());
+      if (!remeshed.kept_features)
+        log.warning(file + ": sharp edges could not be kept by the remeshing.");
+      return remeshed.surface.mesh;
+    }
+
+    TetMesh
+    unselected_mesh(const scene::Scene &scene, unsigned int number, const core::Log &log)
+    {
+      const scene::MeshParameters &parameters = scene.mesh;
+      Sizing                       sizing;
+      if (!parameters.volume_bounds.empty())
+        sizing.max_volume = entry(parameters.volume_bounds, number);
+      const Tetgen tetgen(scene.tetgen);
+      switch (parameters.source)
+        {
+        case scene::MeshSource::bricks:
+          return bricks(parameters.lower_corner,
+                        parameters.upper_corner,
+                        entry(parameters.cells, number));
+        case scene::MeshSource::box:
+          return tetgen.mesh(box_complex(parameters.lower_corner, parameters.upper_corner), sizing);
+        case scene::MeshSource::surface:
+          {
+            const std::string &file    = entry(parameters.files, number);
+            const auto         surface = load_surface(parameters, file, log);
+            log.progress("TetGen meshes the surface");
+            return tetgen.mesh(surface_complex(surface, file), sizing);
+          }
+        case scene::MeshSource::file:
+          {
+            const std::string &file = entry(parameters.files, number);
+            log.progress("reading " + file);
+            TetMesh mesh = read_volume_mesh(file);
+            return sizing.max_volume > 0. ? tetgen.refine(mesh, sizing) : mesh;
+          }
+        }
+      return {};
+    }
+  } // namespace
+
+  std::vector<std::pair<std::string, scene::Selector>>
+  face_selectors(const scene::Scene &scene)
+  {
+    std::vector<std::pair<std::string, scene::Selector>> selectors;
+    for (const auto &support : scene.supports)
+      selectors.emplace_back("Supports/" + support.name, support.selector);
+    for (const auto &load : scene.loads)
+      if (load.type == scene::LoadType::traction || load.type == scene::LoadType::pressure)
+        selectors.emplace_back("Loads/" + load.name, load.selector);
+    return selectors;
+  }
+
+  TetMesh
+  make_mesh(const scene::Scene &scene, unsigned int number, const core::Log &log)
+  {
+    TetMesh mesh = unselected_mesh(scene, number, log);
+    if (!scene.mesh.size.empty())
+      {
+        log.progress("TetGen refines to Mesh/Size");
+        SizeReport report;
+        mesh = mesh_with_size(Tetgen(scene.tetgen),
+                              mesh,
+                              core::Expression(scene.mesh.size, "Mesh/Size"),
+                              &report);
+        if (report.cap_reached)
+          log.warning("TetGen/Steiner points stopped the refinement to Mesh/Size: "
+                      + std::to_string(report.oversized_cells)
+                      + " tetrahedra are larger than asked for.");
+      }
+    select_faces(mesh, face_selectors(scene));
+    return mesh;
+  }
+} // namespace tetradapt::mesh
