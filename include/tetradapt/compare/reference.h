@@ -29,11 +29,12 @@ namespace tetradapt::compare
    * @param initial_mesh the scene's initial mesh with selections made; the route
    *        "refine" refines it.
    */
-  Reference make_reference(const scene::Scene                  &scene,
-                           const mechanics::MaterialMap        &materials,
-                           std::shared_ptr<const mesh::TetMesh> initial_mesh,
-                           MPI_Comm                             communicator,
-                           const core::Log                     &log);
+  Reference
+  make_reference(const scene::Scene                  &scene,
+                 const mechanics::MaterialMap        &materials,
+                 std::shared_ptr<const mesh::TetMesh> initial_mesh,
+                 MPI_Comm                             communicator,
+                 const core::Log                     &log);
 } // namespace tetradapt::compare
 
 #endif
