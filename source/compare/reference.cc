@@ -48,15 +48,6 @@ namespace tetradapt::compare
       return text.str();
     }
 
-    std::string
-    stated_error(const Reference &reference)
-    {
-      if (!(reference.energy > 0.))
-        return "it is at rest";
-      return "its own estimated relative energy error is "
-             + number(reference.estimated_error / std::sqrt(reference.energy));
-    }
-
     Reference
     solve_reference(const scene::Scene           &scene,
                     const mechanics::MaterialMap &materials,
@@ -267,7 +258,6 @@ namespace tetradapt::compare
                             ? reference_of_run(scene, materials, communicator, log)
                             : fine_reference(scene, materials, *initial_mesh, communicator, log);
     reference.seconds   = seconds_since(start);
-    log.info("Reference: " + reference.description + "; " + stated_error(reference));
     compare_bodies(reference.displacement->mesh(), *initial_mesh, log);
     return reference;
   }
