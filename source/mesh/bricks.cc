@@ -29,13 +29,13 @@ namespace tetradapt::mesh
       if (n[0] == 0 || n[1] == 0 || n[2] == 0)
         throw core::InputError(
           "A box of " + text + " bricks is asked for: there must be at least one along each axis.");
-      const double n_points = (n[0] + 1.) * (n[1] + 1.) * (n[2] + 1.);
-      const double n_cells  = 6. * n[0] * n[1] * n[2];
-      const double limit    = std::numeric_limits<unsigned int>::max() / 8;
+      const double       n_points = (n[0] + 1.) * (n[1] + 1.) * (n[2] + 1.);
+      const double       n_cells  = 6. * n[0] * n[1] * n[2];
+      const unsigned int limit    = std::numeric_limits<unsigned int>::max() / 8;
       if (n_points > limit || n_cells > limit)
-        throw core::InputError("A box of " + text + " bricks has " + std::to_string(n_cells)
-                               + " tetrahedra, more than the " + std::to_string(limit)
-                               + " that can be numbered. Ask for fewer bricks.");
+        throw core::InputError(
+          "A box of " + text + " bricks has more than the " + std::to_string(limit)
+          + " points or tetrahedra that can be numbered. Ask for fewer bricks.");
     }
 
 

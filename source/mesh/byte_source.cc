@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/mesh/byte_source.h"
 
+#include "tetradapt/core/exceptions.h"
+
 #include <zlib.h>
 
 #include <algorithm>
@@ -159,5 +161,35 @@ namespace tetradapt::mesh
         place += size;
       }
     return data;
+  }
+
+
+
+  std::string
+  compressed_array(const unsigned char *data, const std::size_t n_bytes, const bool shrink)
+  {
+    constexpr std::size_t      block_bytes = 1 << 20;
+    const std::size_t          n_blocks    = (n_bytes + block_bytes - 1) / block_bytes;
+    const std::size_t          start       = (3 + n_blocks) * sizeof(std::uint64_t);
+    std::vector<std::uint64_t> header{n_blocks, block_bytes, n_bytes % block_bytes};
+    std::string                result(start + n_blocks * ::compressBound(block_bytes), '\0');
+    std::size_t                place = start;
+    for (std::size_t b = 0; b < n_blocks; ++b)
+      {
+        uLongf length = result.size() - place;
+        if (::compress2(reinterpret_cast<Bytef *>(&result[place]),
+                        &length,
+                        data + b * block_bytes,
+                        std::min(block_bytes, n_bytes - b * block_bytes),
+                        shrink ? Z_BEST_SPEED : Z_NO_COMPRESSION)
+            != Z_OK)
+          throw core::NumericalError("Compressing an array for a .vtu file failed.");
+        header.push_back(length);
+        place += length;
+      }
+    std::memcpy(&result[0], header.data(), start);
+    result.resize(place);
+    result.shrink_to_fit();
+    return result;
   }
 } // namespace tetradapt::mesh

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "tetradapt/mesh/msh_reader.h"
+#include "tetradapt/mesh/msh4_sections.h"
 
 #include <cmath>
 #include <cstdlib>

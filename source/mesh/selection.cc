@@ -4,40 +4,16 @@
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/expression.h"
 #include "tetradapt/mesh/mesh_checks.h"
+#include "tetradapt/scene/nearest_names.h"
 
 #include <algorithm>
 #include <memory>
-#include <numeric>
 #include <set>
 
 namespace tetradapt::mesh
 {
   namespace
   {
-    /** Number of letters to change, insert or remove to turn @p a into @p b
-     * (Levenshtein). */
-    unsigned int
-    distance(const std::string &a, const std::string &b)
-    {
-      std::vector<unsigned int> row(b.size() + 1);
-      std::iota(row.begin(), row.end(), 0u);
-      for (std::size_t i = 1; i <= a.size(); ++i)
-        {
-          unsigned int diagonal = row[0];
-          row[0]                = i;
-          for (std::size_t j = 1; j <= b.size(); ++j)
-            {
-              const unsigned int above = row[j];
-              row[j]                   = std::min(
-                {above + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1] ? 1u : 0u)});
-              diagonal = above;
-            }
-        }
-      return row[b.size()];
-    }
-
-
-
     template <typename Container>
     std::string
     join(const Container &items)
@@ -98,16 +74,12 @@ namespace tetradapt::mesh
       for (const std::string &group : selector.groups)
         if (choice.groups.count(group) == 0)
           {
-            const auto nearest = std::min_element(choice.groups.begin(),
-                                                  choice.groups.end(),
-                                                  [&](const std::string &a, const std::string &b) {
-                                                    return distance(group, a) < distance(group, b);
-                                                  });
-            throw core::InputError(
-              "'" + name + "' selects the group '" + group
-              + "', but no face of the mesh's boundary is in it. "
-              + (nearest == choice.groups.end() ? "" : "Did you mean '" + *nearest + "'? ")
-              + choice.text());
+            const auto nearest
+              = scene::nearest_names(group, {choice.groups.begin(), choice.groups.end()});
+            throw core::InputError("'" + name + "' selects the group '" + group
+                                   + "', but no face of the mesh's boundary is in it. "
+                                   + (nearest.empty() ? "" : "Did you mean '" + nearest[0] + "'? ")
+                                   + choice.text());
           }
     }
 
@@ -143,16 +115,17 @@ namespace tetradapt::mesh
           return false;
         if (!expression)
           return true;
-        Point<3> centroid;
         for (const unsigned int v : face.vertices)
           {
             if (holds_at[v] == unknown)
               holds_at[v] = expression->holds(mesh.points[v]) ? yes : no;
             if (holds_at[v] == no)
               return false;
-            centroid += mesh.points[v] / 3.;
           }
-        return expression->holds(centroid);
+        // In this form the centroid lies exactly in a plane x = const with its face.
+        const Point<3> &p = mesh.points[face.vertices[0]];
+        return expression->holds(
+          p + ((mesh.points[face.vertices[1]] - p) + (mesh.points[face.vertices[2]] - p)) / 3.);
       }
 
     private:

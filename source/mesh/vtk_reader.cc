@@ -2,30 +2,13 @@
 #include "tetradapt/mesh/vtk_reader.h"
 
 #include "tetradapt/core/exceptions.h"
-#include "tetradapt/mesh/file_scanner.h"
-#include "tetradapt/mesh/scalar_types.h"
 #include "tetradapt/mesh/vtk_grid.h"
+#include "tetradapt/mesh/vtk_scanner.h"
 
 namespace tetradapt::mesh
 {
   namespace
   {
-    /** Splits at white space. */
-    std::vector<std::string>
-    words_of(std::string_view text)
-    {
-      std::vector<std::string> words;
-      for (text = trimmed(text); !text.empty(); text = trimmed(text))
-        {
-          const std::size_t n = std::min(text.find_first_of(" \t\r\v\f"), text.size());
-          words.emplace_back(text.substr(0, n));
-          text.remove_prefix(n);
-        }
-      return words;
-    }
-
-
-
     class VtkReader
     {
     public:
@@ -50,31 +33,16 @@ namespace tetradapt::mesh
       void
       read_field();
       void
-      skip_metadata();
-      std::size_t
-      count(std::size_t word, const char *what);
-      ScalarType
-      type(const std::string &name);
-      void
-      need_words(std::size_t n);
-
-      template <typename T>
-      std::vector<T>
-      values(std::size_t n, ScalarType type, const char *what);
-
-      void
       keep(const std::string &name, std::size_t n_components, std::vector<double> &&array)
       {
         if (in_cell_data && n_components == 1)
           cell_arrays[name] = std::move(array);
       }
 
-      FileScanner                                scanner;
-      bool                                       binary       = false;
+      VtkScanner                                 scanner;
       bool                                       version_5    = false;
       bool                                       in_cell_data = false;
       std::size_t                                n_data       = 0; ///< of CELL_DATA or POINT_DATA
-      std::vector<std::string>                   words;            ///< of the current line
       VtkGrid                                    grid;
       bool                                       has_points = false, has_cells = false;
       std::map<std::string, std::vector<double>> cell_arrays;
@@ -99,7 +67,7 @@ namespace tetradapt::mesh
       const std::string encoding = lower_case(text);
       if (encoding != "ascii" && encoding != "binary")
         scanner.fail(excerpt(text) + " stands where ASCII or BINARY is expected.");
-      binary = encoding == "binary";
+      scanner.set_binary_arrays(encoding == "binary");
 
       if (!scanner.next_line(text) || lower_case(text.substr(0, 7)) != "dataset")
         scanner.fail("the line DATASET UNSTRUCTURED_GRID is missing.");
@@ -111,90 +79,30 @@ namespace tetradapt::mesh
 
 
     void
-    VtkReader::need_words(const std::size_t n)
-    {
-      if (words.size() < n)
-        scanner.fail("the line beginning with " + excerpt(words[0]) + " is too short.");
-    }
-
-
-
-    std::size_t
-    VtkReader::count(const std::size_t word, const char *what)
-    {
-      need_words(word + 1);
-      std::int64_t n;
-      if (!parse(words[word], n) || n < 0)
-        scanner.fail(excerpt(words[word]) + " stands where " + what + " is expected.");
-      // Each value takes one byte at least.
-      scanner.check_count(n, what, 1);
-      return n;
-    }
-
-
-
-    ScalarType
-    VtkReader::type(const std::string &name)
-    {
-      ScalarType result;
-      if (!legacy_scalar_type(lower_case(name), result))
-        scanner.fail("arrays of type " + excerpt(name) + " cannot be read. Leave it out.");
-      return result;
-    }
-
-
-
-    template <typename T>
-    std::vector<T>
-    VtkReader::values(const std::size_t n, const ScalarType type, const char *what)
-    {
-      scanner.check_count(n, what, binary ? size_of(type) : 2);
-      std::vector<T> result(n);
-      if (binary)
-        {
-          scanner.set_binary(true);
-          convert(type, scanner.raw(n * size_of(type), what), n, is_little_endian(), result.data());
-          scanner.set_binary(false);
-        }
-      else if constexpr (std::is_integral_v<T>)
-        for (T &value : result)
-          value = scanner.integer(what);
-      else
-        for (T &value : result)
-          value = scanner.number(what);
-      return result;
-    }
-
-
-
-    void
     VtkReader::read_cells()
     {
-      const std::size_t n    = count(1, "the number of cells");
-      const std::size_t size = count(2, "the size of the list of cells");
+      const std::size_t n    = scanner.word_count(1, "the number of cells");
+      const std::size_t size = scanner.word_count(2, "the size of the list of cells");
       if (version_5)
         {
-          std::string_view text;
           for (auto *list : {&grid.ends, &grid.connectivity})
             {
               const bool ends = list == &grid.ends;
-              if (!scanner.next_line(text))
+              if (!scanner.next_words())
                 scanner.fail("the list of cells ends before its OFFSETS and CONNECTIVITY.");
-              words = words_of(text);
-              need_words(2);
-              if (lower_case(words[0]) != (ends ? "offsets" : "connectivity"))
-                scanner.fail(excerpt(text) + " stands where " + (ends ? "OFFSETS" : "CONNECTIVITY")
-                             + " is expected.");
-              *list = values<std::int64_t>(ends ? n : size,
-                                           type(words[1]),
-                                           ends ? "a cell's offset" : "a cell's node");
+              if (lower_case(scanner.words()[0]) != (ends ? "offsets" : "connectivity"))
+                scanner.fail(excerpt(scanner.words()[0]) + " stands where "
+                             + (ends ? "OFFSETS" : "CONNECTIVITY") + " is expected.");
+              *list = scanner.values<std::int64_t>(ends ? n : size,
+                                                   scanner.word_type(1),
+                                                   ends ? "a cell's offset" : "a cell's node");
             }
           if (!grid.ends.empty())
             grid.ends.erase(grid.ends.begin()); // the first offset is 0
           return;
         }
 
-      const auto list = values<std::int64_t>(size, ScalarType::int32, "a cell's node");
+      const auto list = scanner.values<std::int64_t>(size, ScalarType::int32, "a cell's node");
       for (std::size_t k = 0; k < list.size() && grid.ends.size() < n;)
         {
           const std::int64_t n_nodes = list[k++];
@@ -220,10 +128,12 @@ namespace tetradapt::mesh
     {
       if (keyword == "points")
         {
-          const std::size_t n = count(1, "the number of points");
-          need_words(3);
-          scanner.check_count(n, "the number of points", binary ? 3 * size_of(type(words[2])) : 6);
-          const auto x = values<double>(3 * n, type(words[2]), "a point's coordinate");
+          const std::size_t n = scanner.word_count(1, "the number of points");
+          scanner.need_words(3);
+          // Three letters each at least, and space between them.
+          scanner.check_count(n, "the number of points", 3);
+          const auto x
+            = scanner.values<double>(3 * n, scanner.word_type(2), "a point's coordinate");
           grid.points.resize(n);
           for (std::size_t i = 0; i < n; ++i)
             grid.points[i] = Point<3>(x[3 * i], x[3 * i + 1], x[3 * i + 2]);
@@ -237,15 +147,15 @@ namespace tetradapt::mesh
           has_cells = true;
         }
       else if (keyword == "cell_types")
-        grid.types = values<std::int64_t>(count(1, "the number of cells"),
-                                          ScalarType::int32,
-                                          "a cell's type");
+        grid.types = scanner.values<std::int64_t>(scanner.word_count(1, "the number of cells"),
+                                                  ScalarType::int32,
+                                                  "a cell's type");
       else if (keyword == "cell_data" || keyword == "point_data")
         {
           in_cell_data = keyword == "cell_data";
-          n_data       = count(1, "the number of data");
+          n_data       = scanner.word_count(1, "the number of data");
           if (n_data != (in_cell_data ? grid.types.size() : grid.points.size()))
-            scanner.fail("the number of data is " + words[1] + ", but there are "
+            scanner.fail("the number of data is " + scanner.words()[1] + ", but there are "
                          + std::to_string(in_cell_data ? grid.types.size() : grid.points.size())
                          + (in_cell_data ? " cells." : " points."));
         }
@@ -259,26 +169,24 @@ namespace tetradapt::mesh
     void
     VtkReader::read_field()
     {
-      const std::size_t n_arrays = count(2, "the number of arrays");
+      const std::size_t n_arrays = scanner.word_count(2, "the number of arrays");
       for (std::size_t a = 0; a < n_arrays;)
         {
-          std::string_view text;
-          if (!scanner.next_line(text))
+          if (!scanner.next_words())
             scanner.fail("the file ends where an array should follow.");
-          words = words_of(text);
-          if (lower_case(words[0]) == "metadata")
+          if (lower_case(scanner.words()[0]) == "metadata")
             {
-              skip_metadata();
+              scanner.skip_metadata();
               continue;
             }
-          need_words(4);
-          const std::size_t n_components = count(1, "the number of components");
-          const std::size_t n_tuples     = count(2, "the number of tuples");
-          const std::string name         = words[0];
-          const ScalarType  array_type   = type(words[3]);
+          scanner.need_words(4);
+          const std::size_t n_components = scanner.word_count(1, "the number of components");
+          const std::size_t n_tuples     = scanner.word_count(2, "the number of tuples");
+          const std::string name         = scanner.words()[0];
+          const ScalarType  array_type   = scanner.word_type(3);
           if (n_components > 0)
             scanner.check_count(n_tuples, "the number of tuples", n_components);
-          auto array = values<double>(n_components * n_tuples, array_type, "a value");
+          auto array = scanner.values<double>(n_components * n_tuples, array_type, "a value");
           if (n_tuples == n_data)
             keep(name, n_components, std::move(array));
           ++a;
@@ -288,58 +196,44 @@ namespace tetradapt::mesh
 
 
     void
-    VtkReader::skip_metadata()
-    {
-      // It ends with an empty line, or with the file.
-      while (scanner.remaining() > 0 && !trimmed(scanner.line()).empty())
-        ;
-    }
-
-
-
-    void
     VtkReader::read_attribute(const std::string &keyword)
     {
-      // Name of the attribute, then the type, in all but three of them.
-      need_words(3);
-      const std::string name = words[1];
-      const auto        read = [&](const std::size_t n_components, const ScalarType array_type) {
+      static const std::map<std::string, std::size_t> sizes{{"vectors", 3},
+                                                            {"normals", 3},
+                                                            {"tensors", 9},
+                                                            {"tensors6", 6},
+                                                            {"global_ids", 1},
+                                                            {"pedigree_ids", 1}};
+      const auto read = [&](const std::size_t n_components, const ScalarType type) {
         if (n_components > 100)
           scanner.fail("an array with " + std::to_string(n_components) + " components.");
-        return values<double>(n_components * n_data, array_type, "a value");
+        return scanner.values<double>(n_components * n_data, type, "a value");
       };
 
       if (keyword == "scalars")
         {
+          const ScalarType  type = scanner.word_type(2);
+          const std::string name = scanner.words()[1];
           const std::size_t n_components
-            = words.size() > 3 ? count(3, "the number of components") : 1;
-          const ScalarType array_type = type(words[2]);
+            = scanner.words().size() > 3 ? scanner.word_count(3, "the number of components") : 1;
           scanner.expect("LOOKUP_TABLE");
           scanner.line();
-          keep(name, n_components, read(n_components, array_type));
+          keep(name, n_components, read(n_components, type));
         }
       else if (keyword == "lookup_table")
         {
-          const std::size_t n = count(2, "the size of the table");
-          values<double>(4 * n, ScalarType::uint8, "a colour");
+          const std::size_t n = scanner.word_count(2, "the size of the table");
+          scanner.values<double>(4 * n, ScalarType::uint8, "a colour");
         }
       else if (keyword == "color_scalars")
-        read(count(2, "the number of components"), ScalarType::uint8);
+        read(scanner.word_count(2, "the number of components"), ScalarType::uint8);
       else if (keyword == "texture_coordinates")
-        {
-          need_words(4);
-          read(count(2, "the number of components"), type(words[3]));
-        }
-      else if (keyword == "vectors" || keyword == "normals")
-        read(3, type(words[2]));
-      else if (keyword == "tensors")
-        read(9, type(words[2]));
-      else if (keyword == "tensors6")
-        read(6, type(words[2]));
-      else if (keyword == "global_ids" || keyword == "pedigree_ids")
-        read(1, type(words[2]));
+        read(scanner.word_count(2, "the number of components"), scanner.word_type(3));
+      else if (const auto size = sizes.find(keyword); size != sizes.end())
+        read(size->second, scanner.word_type(2));
       else
-        scanner.fail(excerpt(words[0]) + " stands where a keyword of the format is expected.");
+        scanner.fail(excerpt(scanner.words()[0])
+                     + " stands where a keyword of the format is expected.");
     }
 
 
@@ -347,13 +241,11 @@ namespace tetradapt::mesh
     bool
     VtkReader::read_keyword()
     {
-      std::string_view text;
-      if (!scanner.next_line(text))
+      if (!scanner.next_words())
         return false;
-      words                     = words_of(text);
-      const std::string keyword = lower_case(words[0]);
+      const std::string keyword = lower_case(scanner.words()[0]);
       if (keyword == "metadata")
-        skip_metadata();
+        scanner.skip_metadata();
       else if (keyword == "field")
         read_field();
       else if (!read_geometry(keyword))

@@ -8,6 +8,7 @@
 #include "tetradapt/mesh/vtu_file.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace tetradapt::mesh
@@ -208,14 +209,15 @@ namespace tetradapt::mesh
   DisplacementFile
   read_displacement_vtu(const std::string &name)
   {
-    const VtuFile  file(name);
-    VtkGrid        grid   = read_grid(file);
-    const unsigned degree = grid.types[0] == vtk_quadratic_tetra ? 2 : 1;
-    for (const std::int64_t type : grid.types)
-      if (type != (degree == 2 ? vtk_quadratic_tetra : vtk_tetra))
+    const VtuFile      file(name);
+    VtkGrid            grid   = read_grid(file);
+    const unsigned int degree = grid.types[0] == vtk_quadratic_tetra ? 2 : 1;
+    for (std::size_t c = 0; c < grid.types.size(); ++c)
+      if (grid.types[c] != (degree == 2 ? vtk_quadratic_tetra : vtk_tetra))
         file.fail(file.array("Cells", "types"),
-                  "the cells must be tetrahedra, all of the same order, but there is VTK type "
-                    + std::to_string(type) + " beside " + std::to_string(grid.types[0]) + ".");
+                  "cell " + std::to_string(c) + " (counted from 0) has the VTK type "
+                    + std::to_string(grid.types[c])
+                    + "; all cells must be tetrahedra of the same order (10 or 24).");
 
     const auto array = file.array("PointData", "displacement");
     if (VtuFile::n_components(array) != 3)

@@ -3,10 +3,9 @@
 
 #include "tetradapt/core/atomic_file.h"
 #include "tetradapt/core/exceptions.h"
+#include "tetradapt/mesh/byte_source.h"
 #include "tetradapt/mesh/scalar_types.h"
 #include "tetradapt/mesh/vtk_grid.h"
-
-#include <zlib.h>
 
 #include <algorithm>
 #include <set>
@@ -15,58 +14,6 @@ namespace tetradapt::mesh
 {
   namespace
   {
-    constexpr std::size_t block_bytes = 1 << 20;
-
-
-
-    /** Whether zlib is worth its time: ids and offsets shrink to a hundredth or a
-     * sixth at once. Point numbers of cells, and the bits of computed
-     * floating-point numbers, are so close to random that compressing them takes ten
-     * times as long as writing them, to save 40 and 10 percent. They are stored. */
-    enum class Content
-    {
-      repetitive,
-      random
-    };
-
-
-
-    /** VTK's compressed array: number of blocks, size of a block and of an
-     * incomplete last one, compressed sizes, blocks. */
-    template <typename T>
-    std::string
-    compress(const std::vector<T> &values, const Content content)
-    {
-      const int         level    = content == Content::random ? Z_NO_COMPRESSION : Z_BEST_SPEED;
-      const std::size_t n_bytes  = values.size() * sizeof(T);
-      const std::size_t n_blocks = (n_bytes + block_bytes - 1) / block_bytes;
-      std::vector<std::uint64_t> header{n_blocks, block_bytes, n_bytes % block_bytes};
-      const auto                *data  = reinterpret_cast<const Bytef *>(values.data());
-      const std::size_t          start = (3 + n_blocks) * sizeof(std::uint64_t);
-      std::string                result(start + n_blocks * ::compressBound(block_bytes), '\0');
-      std::size_t                place = start;
-      for (std::size_t b = 0; b < n_blocks; ++b)
-        {
-          const std::size_t size   = std::min(block_bytes, n_bytes - b * block_bytes);
-          uLongf            length = result.size() - place;
-          if (::compress2(reinterpret_cast<Bytef *>(&result[place]),
-                          &length,
-                          data + b * block_bytes,
-                          size,
-                          level)
-              != Z_OK)
-            throw core::NumericalError("Compressing an array for a .vtu file failed.");
-          header.push_back(length);
-          place += length;
-        }
-      std::copy_n(reinterpret_cast<const char *>(header.data()), start, result.begin());
-      result.resize(place);
-      result.shrink_to_fit();
-      return result;
-    }
-
-
-
     std::string
     escaped(const std::string &text)
     {
@@ -166,13 +113,17 @@ namespace tetradapt::mesh
       xml += " NumberOfComponents=\"" + std::to_string(n_components) + "\"";
     if (section == Section::field_data)
       xml += " NumberOfTuples=\"" + std::to_string(values.size() / n_components) + "\"";
-    arrays.push_back(
-      {section,
-       xml,
-       compress(values,
-                std::is_floating_point_v<T> || name == "connectivity" ? Content::random
-                                                                      : Content::repetitive),
-       ""});
+
+    // Ids and offsets shrink to a hundredth or a sixth at once. Point numbers of
+    // cells, and the bits of computed floating-point numbers, are so close to random
+    // that zlib takes ten times as long as writing them, to save 40 and 10 percent.
+    const bool shrink = !std::is_floating_point_v<T> && name != "connectivity";
+    arrays.push_back({section,
+                      xml,
+                      compressed_array(reinterpret_cast<const unsigned char *>(values.data()),
+                                       values.size() * sizeof(T),
+                                       shrink),
+                      ""});
   }
 
 

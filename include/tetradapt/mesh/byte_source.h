@@ -64,6 +64,14 @@ namespace tetradapt::mesh
   read_array(ByteSource                                     &source,
              const BinaryLayout                             &layout,
              const std::function<void(const std::string &)> &fail);
+
+  /**
+   * @p n_bytes bytes as VTK's vtkZLibDataCompressor has them, with a header of
+   * 64-bit numbers: what read_array() reads.
+   * @param shrink whether to compress (at zlib's fastest level) or only to store.
+   */
+  std::string
+  compressed_array(const unsigned char *data, std::size_t n_bytes, bool shrink);
 } // namespace tetradapt::mesh
 
 #endif
