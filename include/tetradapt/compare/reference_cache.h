@@ -34,7 +34,7 @@ namespace tetradapt::compare
    * and checksum of the rest (see Fingerprint), then the bare arrays. The file
    * appears whole under its name, so that processes that read or write it at
    * the same time do not disturb each other; the last writer wins, and all of
-   * them write the same.
+   * them have computed the same.
    *
    * @param key the hash of what determines the reference (reference_key()).
    * @throws as core::AtomicFile does.
