@@ -21,7 +21,8 @@ fi
 
 # Prints which of the given packages are not installed.
 missing_packages() {
-  dpkg-query -W -f '${db:Status-Abbrev} ${Package}\n' "$@" 2>/dev/null |
+  # dpkg-query fails for names that it has never heard of.
+  { dpkg-query -W -f '${db:Status-Abbrev} ${Package}\n' "$@" 2>/dev/null || true; } |
     awk -v wanted="$*" '
       $1 == "ii" { here[$2] = 1 }
       END { n = split(wanted, name)
