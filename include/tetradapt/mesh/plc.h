@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_mesh_plc_h
+#define tetradapt_mesh_plc_h
+
+#include "tetradapt/geometry/surface_mesh.h"
+#include "tetradapt/mesh/tet_mesh.h"
+
+namespace tetradapt::mesh
+{
+  /**
+   * What TetGen makes a volume mesh from: a closed boundary of flat facets, and
+   * a point inside every region that shall have an id.
+   */
+  struct PiecewiseLinearComplex
+  {
+    /** A flat convex polygon. */
+    struct Facet
+    {
+      std::vector<unsigned int> vertices;  ///< point numbers in cyclic order
+      unsigned int              patch = 0; ///< index into patches
+    };
+
+    /** A part of the volume and its id. */
+    struct Region
+    {
+      Point<3> seed; ///< a point strictly inside
+      int      id = 0;
+    };
+
+    std::string           name; ///< for messages: "the box", "femur.off"
+    std::vector<Point<3>> points;
+    std::vector<Facet>    facets;
+    std::vector<Patch>    patches;
+    std::vector<Region>   regions; ///< empty: everything is region 0
+  };
+
+  /**
+   * The boundary of an axis-parallel box: six rectangles with the boundary ids 1
+   * to 6 and the names x-min, x-max, y-min, y-max, z-min, z-max.
+   *
+   * @throws InputError if a coordinate is not finite, @p upper is not above @p
+   *         lower in every direction, or one side is more than 1000 times shorter
+   *         than another: TetGen does not come to an end on nearly flat boxes.
+   */
+  PiecewiseLinearComplex
+  box_complex(const Point<3> &lower, const Point<3> &upper);
+
+  /**
+   * The triangles of a surface as facets, with one patch per boundary id of the
+   * surface, in increasing order of the ids.
+   *
+   * @param name names the surface in messages.
+   */
+  PiecewiseLinearComplex
+  surface_complex(const geometry::SurfaceMesh &surface, const std::string &name);
+
+  /** The facets cut into triangles, each with its facet's patch as id. */
+  geometry::SurfaceMesh
+  triangulate(const PiecewiseLinearComplex &plc);
+} // namespace tetradapt::mesh
+
+#endif

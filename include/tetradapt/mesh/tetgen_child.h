@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_mesh_tetgen_child_h
+#define tetradapt_mesh_tetgen_child_h
+
+#include <string>
+
+namespace tetradapt::mesh
+{
+  /** How a child process ended. */
+  struct ChildResult
+  {
+    std::string output; ///< all that it wrote to its standard output
+    std::string errors; ///< the last 4 to 8 kB that it wrote to its standard error
+    bool        timed_out = false;
+    /** As waitpid() gives it; -1 if a handler of SIGCHLD collected it first. */
+    int status = -1;
+  };
+
+  /**
+   * Runs @p program without arguments, sends it @p input on its standard input
+   * and collects what it writes until it closes both output streams; kills it
+   * after @p time_limit seconds of wall time.
+   *
+   * posix_spawn() is used, not fork(), so that this is safe in MPI programs; the
+   * child gets default signal handlers and no descriptor but the standard three.
+   * A child that dies does not raise SIGPIPE here. No child survives an exception.
+   *
+   * @throws NumericalError if the child cannot be started.
+   */
+  ChildResult
+  run_child(const std::string &program, const std::string &input, double time_limit);
+} // namespace tetradapt::mesh
+
+#endif
