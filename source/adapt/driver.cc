@@ -97,9 +97,9 @@ namespace tetradapt::adapt
       for (Observer *observer : observers)
         observer->run_done(decision.text);
     if (decision.success)
-      log.info("Stopped: " + decision.text);
+      log.info(decision.text);
     else
-      log.warning("Stopped: " + decision.text);
+      log.warning(decision.text);
   }
 
   void
@@ -130,8 +130,19 @@ namespace tetradapt::adapt
                                                             *materials,
                                                             communicator);
     std::ostringstream text;
-    text << "Reference: " << reference->description << "; its own relative energy error is about "
-         << reference->estimated_error / std::sqrt(reference->energy);
+    text << "Reference: " << reference->description << "; estimated relative energy error "
+         << reference->estimated_error / sampling->energy_norm();
+    if (plan.needs(Plan::known_energy))
+      {
+        // What is known is sharper than what is estimated.
+        const auto known
+          = estimate::error_from_known_energy(scene.truth.energy, reference->energy, drive);
+        if (known.error)
+          {
+            reference->estimated_error = *known.error;
+            text << ", by the known energy " << *known.relative_error;
+          }
+      }
     log.info(text.str());
   }
 
@@ -213,18 +224,20 @@ namespace tetradapt::adapt
             record.energy_error          = known.error;
             record.relative_energy_error = known.relative_error;
             true_error                   = known.error;
+            cycle.true_energy_error      = true;
           }
       }
     if (plan.needs(Plan::exact_comparison))
       {
         set_errors(comparison.to_truth(), record);
-        true_error = record.energy_error;
+        true_error              = record.energy_error;
+        cycle.true_energy_error = true;
       }
     record.effectivity = estimate::effectivity(record.estimate, true_error);
     if (plan.needs(Plan::nodal_ren))
       {
         const compare::NodalRen &ren = comparison.ren();
-        record.mean_ren              = ren.mean;
+        record.mean_ren              = ren.mean_of_points;
         record.max_ren               = ren.max;
       }
   }
@@ -250,15 +263,14 @@ namespace tetradapt::adapt
   }
 
   StopDecision
-  Driver::decide(const Cycle &) const
+  Driver::decide(const Cycle &cycle) const
   {
     StoppingContext context;
-    context.degree = scene.degree;
-    context.true_energy_error
-      = plan.needs(Plan::exact_comparison) || plan.needs(Plan::known_energy);
-    context.true_ren        = plan.needs(Plan::exact_comparison);
-    context.n_meshes        = scene.mesh.n_meshes();
-    context.elapsed_seconds = timer.total_wall();
+    context.degree            = scene.degree;
+    context.true_energy_error = cycle.true_energy_error;
+    context.true_ren          = plan.needs(Plan::exact_comparison);
+    context.n_meshes          = scene.mesh.n_meshes();
+    context.elapsed_seconds   = timer.total_wall();
     if (reference != nullptr)
       {
         context.reference_tets   = reference->displacement->mesh().n_cells();
@@ -294,6 +306,61 @@ namespace tetradapt::adapt
     return {};
   }
 
+  double
+  Driver::wanted_indicator_norm(const Cycle &cycle) const
+  {
+    const CycleRecord &record    = cycle.record;
+    const double       tolerance = scene.adaptivity.tolerance;
+    if (tolerance == 0. || scene.adaptivity.driver == scene::AdaptivityParameters::Driver::ren
+        || !record.energy_error || record.relative_energy_error.value_or(0.) == 0.)
+      return 0.;
+    const double norm = *record.energy_error / *record.relative_energy_error;
+    if (cycle.true_energy_error)
+      return tolerance * norm;
+    // The reference's own error is part of what the user is told.
+    const double own = record.reference_error.value_or(0.);
+    return own < tolerance ? std::sqrt(tolerance * tolerance - own * own) * norm : 0.;
+  }
+
+  SizeField
+  Driver::make_size_field(const Cycle &cycle) const
+  {
+    SizeFieldOptions options
+      = make_size_field_options(scene.adaptivity, scene.tetgen, scene.degree, mesh->n_cells());
+    if (const auto marker = make_marker(scene.adaptivity))
+      return marked_size_field(*mesh, marker->mark(cycle.indicators, *mesh), options);
+    options.obtained_over_predicted = obtained_over_predicted;
+    options.tolerance               = wanted_indicator_norm(cycle);
+    return optimal_size_field(*mesh,
+                              cycle.indicators,
+                              options,
+                              scene.degree == 2 ? &cycle.solution.displacement->edges() : nullptr);
+  }
+
+  void
+  Driver::refine_mesh(const SizeField &field)
+  {
+    const unsigned int old_tets = mesh->n_cells();
+    log.progress("TetGen refines " + std::to_string(old_tets) + " tetrahedra");
+    const mesh::Tetgen tetgen(scene.tetgen);
+    const auto         old_mesh = mesh;
+    mesh                        = mesh::make_on_first_rank(communicator, [&]() {
+      mesh::TetgenReport report;
+      mesh::TetMesh      refined = tetgen.refine(*old_mesh, field.sizing, &report);
+      if (report.cap_reached)
+        log.warning("TetGen stopped at TetGen/Steiner points, before the wanted sizes were "
+                                           "reached.");
+      if (report.oversized_cells > 0)
+        log.warning(std::to_string(report.oversized_cells)
+                    + " tetrahedra are larger than asked for.");
+      return refined;
+    });
+    std::ostringstream text;
+    text << "Refined from " << old_tets << " to " << mesh->n_cells() << " tetrahedra ("
+         << std::lround(field.predicted_tets) << " predicted): " << describe_mesh(*mesh);
+    log.info(text.str());
+  }
+
   StopDecision
   Driver::adapt_mesh(Cycle &cycle)
   {
@@ -301,13 +368,7 @@ namespace tetradapt::adapt
     {
       const auto scope = timer.scope("marking");
       log.progress("marking and sizing");
-      SizeFieldOptions options
-        = make_size_field_options(scene.adaptivity, scene.tetgen, scene.degree, mesh->n_cells());
-      options.obtained_over_predicted = obtained_over_predicted;
-      if (const auto marker = make_marker(scene.adaptivity))
-        field = marked_size_field(*mesh, marker->mark(cycle.indicators, *mesh), options);
-      else
-        field = optimal_size_field(*mesh, cycle.indicators, options);
+      field = make_size_field(cycle);
     }
     const double largest = *std::max_element(cycle.indicators.begin(), cycle.indicators.end());
     if (largest == 0. || field.n_refined == 0)
@@ -316,29 +377,9 @@ namespace tetradapt::adapt
     const unsigned int old_tets = mesh->n_cells();
     {
       const auto scope = timer.scope("mesh");
-      log.progress("TetGen refines " + std::to_string(old_tets) + " tetrahedra");
-      const mesh::Tetgen tetgen(scene.tetgen);
-      const auto         old_mesh = mesh;
-      mesh                        = mesh::make_on_first_rank(communicator, [&]() {
-        mesh::TetgenReport report;
-        mesh::TetMesh      refined = tetgen.refine(*old_mesh, field.sizing, &report);
-        if (report.cap_reached)
-          log.warning("TetGen stopped at TetGen/Steiner points, before the wanted sizes were "
-                                             "reached.");
-        if (report.oversized_cells > 0)
-          log.warning(std::to_string(report.oversized_cells)
-                      + " tetrahedra are larger than asked for.");
-        return refined;
-      });
-      std::ostringstream text;
-      text << "Refined from " << old_tets << " to " << mesh->n_cells() << " tetrahedra ("
-           << static_cast<unsigned long>(field.predicted_tets)
-           << " predicted): " << describe_mesh(*mesh);
-      log.info(text.str());
+      refine_mesh(field);
     }
-    if (field.predicted_tets > 0.)
-      obtained_over_predicted
-        *= std::clamp(mesh->n_cells() / field.predicted_tets, 0.5, 2.) / obtained_over_predicted;
+    obtained_over_predicted = next_obtained_over_predicted(field, mesh->n_cells());
     prepare_start(cycle);
     return decide_new_mesh(old_tets, mesh->n_cells());
   }

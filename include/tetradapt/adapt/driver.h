@@ -53,7 +53,7 @@ namespace tetradapt::adapt
       solve::StaticSolution                 solution;
       std::unique_ptr<estimate::Comparison> comparison;
       std::vector<double>                   indicators;
-      std::vector<std::string>              warnings;
+      bool true_energy_error = false; ///< energy_error is the true one
     };
 
     void
@@ -75,6 +75,12 @@ namespace tetradapt::adapt
     next_mesh(Cycle &cycle);
     StopDecision
     adapt_mesh(Cycle &cycle);
+    SizeField
+    make_size_field(const Cycle &cycle) const;
+    double
+    wanted_indicator_norm(const Cycle &cycle) const;
+    void
+    refine_mesh(const SizeField &field);
     void
     prepare_start(Cycle &cycle);
 
@@ -93,7 +99,7 @@ namespace tetradapt::adapt
     std::shared_ptr<const compare::ReferenceSampling> sampling;
     std::unique_ptr<mesh::NodalField>                 start; ///< first iterate of the next solve
     std::vector<CycleRecord>                          history;
-    double                                            obtained_over_predicted = 1.;
+    double obtained_over_predicted = 0.; ///< see SizeFieldOptions
   };
 } // namespace tetradapt::adapt
 

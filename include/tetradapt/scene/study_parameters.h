@@ -111,12 +111,12 @@ namespace tetradapt::scene
     double fraction  = 0.2; ///< fixed fraction
     double theta     = 0.5; ///< doerfler
     double reduction = 0.5; ///< new edge length over old one of a marked cell
-    double growth    = 6.;  ///< optimal size: tetrahedra of the next mesh over this one's
-    double min_ratio = 1. / 3.; ///< clamp of new over old size in one cycle
+    double growth    = 3.;  ///< optimal size: tetrahedra of the next mesh over this one's
+    double min_ratio = 0.2; ///< clamp of new over old size in one cycle
     double max_ratio = 2.;
     double min_size  = 0.;  ///< smallest edge length; 0: none
     double max_size  = 0.;  ///< largest edge length; 0: none
-    double gradation = 0.3; ///< h(x) <= h(y) + g |x-y|
+    double gradation = 0.5; ///< h(x) <= h(y) + g |x-y|
     /** Stop when the relative energy error (estimated, or true where known) is
      * below; 0: no such stop. */
     double        tolerance     = 0.;
