@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_tests_scenes_program_h
+#define tetradapt_tests_scenes_program_h
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+/** Runs the program as a user does and reads what it wrote. All of it happens in
+ * the test's own working directory. */
+namespace program
+{
+  namespace fs = std::filesystem;
+
+  inline std::string
+  read(const fs::path &file)
+  {
+    std::ifstream      stream(file, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+  }
+
+  inline void
+  write(const fs::path &file, const std::string &text)
+  {
+    std::ofstream(file, std::ios::binary) << text;
+  }
+
+  inline bool
+  contains(const std::string &text, const std::string &part)
+  {
+    return text.find(part) != std::string::npos;
+  }
+
+  inline void
+  check(const std::string &what, bool holds)
+  {
+    std::cout << what << ": " << (holds ? "yes" : "NO") << std::endl;
+  }
+
+  struct Result
+  {
+    int         code;
+    std::string out;
+    std::string err;
+  };
+
+  /** @p before comes in front of the program's name: variables, or mpirun. */
+  inline Result
+  run(const std::string &arguments, const std::string &before = "")
+  {
+    const char *name = std::getenv("TETRADAPT_PROGRAM");
+    if (name == nullptr)
+      {
+        std::cerr << "Set TETRADAPT_PROGRAM to the program's name; ctest does.\n";
+        std::exit(1);
+      }
+    const int status
+      = std::system((before + " '" + name + "' " + arguments + " >out.txt 2>err.txt").c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out.txt"), read("err.txt")};
+  }
+
+  /** A scene that comes with the program. */
+  inline std::string
+  scene(const std::string &name)
+  {
+    return (fs::path(SOURCE_DIR).parent_path().parent_path() / "prm" / name).string();
+  }
+
+  /** A convergence.csv: a column a name; no number where it has none. */
+  class Table
+  {
+  public:
+    explicit Table(const fs::path &folder)
+    {
+      std::ifstream            file(folder / "convergence.csv");
+      std::string              line;
+      std::vector<std::string> names;
+      while (std::getline(file, line))
+        {
+          std::istringstream cells(line);
+          std::string        cell;
+          for (unsigned int c = 0; std::getline(cells, cell, ','); ++c)
+            if (names.size() <= c && columns.empty())
+              names.push_back(cell);
+            else
+              columns[names.at(c)].push_back(cell.empty() ? std::nan("") : std::stod(cell));
+          if (columns.empty())
+            for (const auto &name : names)
+              columns[name];
+          else
+            for (auto &column : columns) // an empty last cell
+              column.second.resize(columns.at("cycle").size(), std::nan(""));
+        }
+    }
+
+    unsigned int
+    n_rows() const
+    {
+      const auto cycles = columns.find("cycle");
+      return cycles == columns.end() ? 0 : cycles->second.size();
+    }
+    /** No number if there is no such row. */
+    double
+    value(const std::string &column, unsigned int row) const
+    {
+      return row < n_rows() ? columns.at(column)[row] : std::nan("");
+    }
+    double
+    last(const std::string &column) const
+    {
+      return n_rows() == 0 ? std::nan("") : value(column, n_rows() - 1);
+    }
+    /** Whether a column has two rows or more and falls from each to the next. */
+    bool
+    falls(const std::string &column) const
+    {
+      bool result = n_rows() > 1;
+      for (unsigned int row = 1; row < n_rows(); ++row)
+        result = result && value(column, row) < value(column, row - 1);
+      return result;
+    }
+    /** Largest relative difference of the columns that do not tell the time. */
+    double
+    distance(const Table &other) const
+    {
+      if (n_rows() == 0 || n_rows() != other.n_rows())
+        return 1e300;
+      double largest = 0.;
+      for (const auto &column : columns)
+        if (column.first.find("seconds") != 0 && column.first != "iterations")
+          for (unsigned int row = 0; row < n_rows(); ++row)
+            {
+              const double a = column.second[row], b = other.value(column.first, row);
+              if (std::isnan(a) != std::isnan(b))
+                return 1e300;
+              if (a != b && !std::isnan(a))
+                largest = std::max(largest, std::abs(a - b) / std::max(std::abs(a), std::abs(b)));
+            }
+      return largest;
+    }
+
+  private:
+    std::map<std::string, std::vector<double>> columns;
+  };
+
+  /** A folder that is not there, or was removed. */
+  inline fs::path
+  fresh(const std::string &name)
+  {
+    fs::remove_all(name);
+    return name;
+  }
+
+  /** Names of the files in a folder, sorted, in one line. */
+  inline std::string
+  files(const fs::path &folder)
+  {
+    std::map<std::string, bool> names;
+    if (fs::exists(folder))
+      for (const auto &entry : fs::directory_iterator(folder))
+        names[entry.path().filename().string()] = true;
+    std::string text;
+    for (const auto &name : names)
+      text += (text.empty() ? "" : " ") + name.first;
+    return text;
+  }
+
+  /** @p text without the working directory's name. */
+  inline std::string
+  portable(std::string text)
+  {
+    const std::string here = fs::current_path().string() + "/";
+    for (auto at = text.find(here); at != std::string::npos; at = text.find(here))
+      text.replace(at, here.size(), "");
+    return text;
+  }
+} // namespace program
+
+#endif
