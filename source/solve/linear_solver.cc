@@ -84,7 +84,7 @@ namespace tetradapt::solve
           message << "Conjugate gradients did not converge: after " << failure.last_step
                   << " iterations the residual is " << failure.last_residual / tolerance
                   << " times the allowed one. Look for materials of very different stiffness, a "
-                     "Poisson ratio close to 0.5 or very flat elements; or raise Solver/Max "
+                     "Poisson ratio close to 0.5 or very flat elements; or raise Solver/Maximum "
                      "iterations, or set Solver/Type = direct.";
           throw core::NumericalError(message.str());
         }
