@@ -262,7 +262,7 @@ namespace tetradapt::geometry
     {
       std::string reason;
       for (const double angle : {feature_angle, 180.})
-        for (const double factor : {1., 0.95, 0.9})
+        for (const double factor : {1., 0.95, 0.9, 0.85, 0.8})
           try
             {
               RemeshedSurface result = attempt(before, factor * edge_length, angle, what);

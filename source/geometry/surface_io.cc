@@ -4,6 +4,8 @@
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/geometry/surface_topology.h"
 
+#include "surface_headers.h"
+
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/IO/OBJ.h>
 #include <CGAL/IO/OFF.h>
@@ -15,7 +17,6 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <sstream>
 
 namespace tetradapt::geometry
 {
@@ -55,51 +56,6 @@ namespace tetradapt::geometry
         throw InputError("The surface file '" + file + "' cannot be read: check its permissions.");
       if (std::filesystem::file_size(file) == 0)
         throw InputError("The surface file '" + file + "' is empty.");
-    }
-
-    [[noreturn]] void
-    refuse_count(const std::string &file, const std::string &count)
-    {
-      throw InputError("The surface file '" + file + "' announces " + count
-                       + " points or polygons, more than a file of its size can hold.");
-    }
-
-    /**
-     * CGAL reserves what a file's header announces before it reads on; a damaged
-     * number would take all of the machine's memory. No point or polygon takes
-     * less than three bytes.
-     */
-    void
-    check_announced_counts(const std::string &file, const std::string &format)
-    {
-      const double  most = static_cast<double>(std::filesystem::file_size(file)) / 3. + 1.;
-      std::ifstream stream(file, std::ios::binary);
-      if (format == ".stl")
-        return; // reads facet by facet
-      std::string  line;
-      unsigned int n_lines = 0, n_numbers = 0;
-      while (std::getline(stream, line) && ++n_lines < 1000)
-        {
-          std::istringstream words(line.substr(0, line.find('#')));
-          std::string        word, kind, count;
-          if (format == ".ply")
-            {
-              if (words >> word && word == "end_header")
-                return;
-              if (word == "element" && words >> kind >> count && std::atof(count.c_str()) > most)
-                refuse_count(file, count);
-            }
-          else if (format == ".off")
-            while (n_numbers < 2 && words >> word)
-              if (std::isdigit(static_cast<unsigned char>(word[0])) != 0)
-                {
-                  ++n_numbers;
-                  if (std::atof(word.c_str()) > most)
-                    refuse_count(file, word);
-                }
-          if (n_numbers == 2 || format == ".obj")
-            return;
-        }
     }
 
     Soup
@@ -204,7 +160,10 @@ namespace tetradapt::geometry
       throw InputError("The surface file '" + file + "' has the unknown ending '" + format
                        + "'; known are " + surface_formats() + '.');
     check_file(file);
-    check_announced_counts(file, format);
+    if (format == ".off")
+      check_off_header(file);
+    if (format == ".ply")
+      check_ply_header(file);
     const Soup soup = read_soup(file, format);
     if (soup.points.size() > std::numeric_limits<int>::max())
       throw InputError("The surface file '" + file + "' has too many points for this program.");

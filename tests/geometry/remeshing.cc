@@ -107,6 +107,11 @@ main()
   std::cout << "box: volume " << refined.surface.volume << ", area " << refined.surface.area
             << ", features kept " << refined.kept_features << ", mean edge within .22 to .28 "
             << within(mean_edge(refined.surface.mesh), .22, .28) << std::endl;
+  const auto twice = geometry::remesh(box, 0.25, 60, "box");
+  std::cout << "  same surface twice "
+            << (twice.surface.mesh.points == refined.surface.mesh.points
+                && twice.surface.mesh.triangles == refined.surface.mesh.triangles)
+            << std::endl;
   for (const auto &[id, area] : areas(refined.surface.mesh))
     std::cout << "  area of id " << id << ": " << area << std::endl;
   const auto coarser = geometry::remesh(refined.surface.mesh, 0.5, 60, "box again");

@@ -135,6 +135,10 @@ main()
   read("cut.ply", ply + points(""));
   read("huge.off", "OFF\n4000000000 12 0\n0 0 0\n");
   read("huge.ply", "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\n");
+  // CGAL's reader crashes on properties without an element.
+  read("no_element.ply", "ply\nformat ascii 1.0\nproperty float x\nend_header\n");
+  read("no_end.ply", "ply\nformat ascii 1.0\nelement vertex 3\n");
+  read("no_faces.ply", "ply\nformat ascii 1.0\nelement vertex 0\nend_header\n");
   read("no_triangles.obj", points("v "));
   read("out_of_range.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n");
   read("two_corners.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n");

@@ -12,7 +12,7 @@ namespace tetradapt::geometry
   struct RemeshedSurface
   {
     CheckedSurface surface;
-    /** The edge length used: the wanted one, or up to a tenth less where that one
+    /** The edge length used: the wanted one, or up to a fifth less where that one
      * led to intersections that could not be repaired. */
     double edge_length = 0.;
     /** Relative change of the enclosed volume, with its sign. */
