@@ -7,7 +7,6 @@
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
-#include <map>
 
 namespace tetradapt::mechanics
 {
@@ -41,41 +40,6 @@ namespace tetradapt::mechanics
       std::vector<std::array<double, 6>> values;
     };
 
-    /** Vector area of each face (half the cross product), pointing outward. */
-    std::vector<Tensor<1, 3>>
-    outward_areas(const mesh::TetMesh &mesh)
-    {
-      std::map<std::array<unsigned int, 3>, unsigned int> face_of;
-      std::vector<Tensor<1, 3>>                           areas(mesh.faces.size());
-      std::vector<bool>                                   on_boundary(mesh.n_points(), false);
-      for (unsigned int f = 0; f < mesh.faces.size(); ++f)
-        {
-          auto        key = mesh.faces[f].vertices;
-          const auto &v   = mesh.faces[f].vertices;
-          areas[f]        = 0.5
-                     * dealii::cross_product_3d(mesh.points[v[1]] - mesh.points[v[0]],
-                                                mesh.points[v[2]] - mesh.points[v[0]]);
-          std::sort(key.begin(), key.end());
-          face_of[key] = f;
-          for (const unsigned int p : key)
-            on_boundary[p] = true;
-        }
-      for (const auto &cell : mesh.cells)
-        for (unsigned int i = 0; i < 4; ++i)
-          {
-            std::array<unsigned int, 3> key{
-              {cell[(i + 1) % 4], cell[(i + 2) % 4], cell[(i + 3) % 4]}};
-            if (!on_boundary[key[0]] || !on_boundary[key[1]] || !on_boundary[key[2]])
-              continue;
-            std::sort(key.begin(), key.end());
-            const auto found = face_of.find(key);
-            if (found != face_of.end()
-                && areas[found->second] * (mesh.points[cell[i]] - mesh.points[key[0]]) > 0.)
-              areas[found->second] *= -1.;
-          }
-      return areas;
-    }
-
     void
     add_face_load(const scene::LoadParameters                    &load,
                   const mesh::TetMesh                            &mesh,
@@ -87,15 +51,15 @@ namespace tetradapt::mechanics
       const bool        pressure = load.type == scene::LoadType::pressure;
       const auto        texts
         = pressure ? std::array<std::string, 3>{{load.value[0], "0", "0"}} : load.value;
-      const core::VectorExpression    value(texts, what);
-      const std::vector<Tensor<1, 3>> areas = outward_areas(mesh);
+      const core::VectorExpression value(texts, what);
       for (unsigned int f = 0; f < mesh.faces.size(); ++f)
         {
           const auto &selections = mesh.patches[mesh.faces[f].patch].selections;
           if (std::find(selections.begin(), selections.end(), "Loads/" + load.name)
               == selections.end())
             continue;
-          const auto &v = mesh.faces[f].vertices;
+          const auto        &v    = mesh.faces[f].vertices;
+          const Tensor<1, 3> area = mesh::face_area_vector(mesh, mesh.faces[f]); // outward
           for (unsigned int q = 0; q < shapes.values.size(); ++q)
             {
               Point<3> x;
@@ -105,7 +69,7 @@ namespace tetradapt::mechanics
               const double       weight = 2. * shapes.quadrature.weight(q);
               const Tensor<1, 3> given  = value(x);
               const Tensor<1, 3> force
-                = weight * (pressure ? -given[0] * areas[f] : areas[f].norm() * given);
+                = weight * (pressure ? -given[0] * area : area.norm() * given);
               for (unsigned int i = 0; i < shapes.n_nodes; ++i)
                 forces[face_nodes[f][i]] += shapes.values[q][i] * force;
             }

@@ -4,12 +4,12 @@
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/expression.h"
 #include "tetradapt/mechanics/rigid_motions.h"
+#include "tetradapt/mesh/mesh_checks.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <memory>
 #include <sstream>
-#include <unordered_map>
 
 namespace tetradapt::mechanics
 {
@@ -17,20 +17,6 @@ namespace tetradapt::mechanics
   {
     using dealii::Point;
     using dealii::Tensor;
-
-    std::uint64_t
-    edge_key(unsigned int a, unsigned int b)
-    {
-      return static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b);
-    }
-
-    std::string
-    at(const Point<3> &p)
-    {
-      std::ostringstream text;
-      text << "(" << p[0] << ", " << p[1] << ", " << p[2] << ")";
-      return text.str();
-    }
 
     Point<3>
     position(const mesh::TetMesh &mesh, const mesh::EdgeTable *edges, unsigned int node)
@@ -84,7 +70,7 @@ namespace tetradapt::mechanics
           return;
         std::ostringstream message;
         message << "Supports/" << supports[owners[node][c]].name << " and Supports/"
-                << supports[support].name << " contradict each other at " << at(x)
+                << supports[support].name << " contradict each other at " << mesh::to_string(x)
                 << ": displacement component "
                 << "xyz"[c] << " is " << before << " by the one and " << value[c]
                 << " by the other. Leave the component out of one of them, or let their faces not "
@@ -109,34 +95,17 @@ namespace tetradapt::mechanics
   std::vector<std::array<unsigned int, 6>>
   boundary_face_nodes(const mesh::TetMesh &mesh, const mesh::EdgeTable *edges)
   {
-    std::vector<std::array<unsigned int, 6>>        nodes(mesh.faces.size());
-    std::unordered_map<std::uint64_t, unsigned int> numbers;
-    std::vector<bool>                               on_boundary(mesh.n_points(), false);
-    for (const auto &face : mesh.faces)
-      for (unsigned int i = 0; i < 3; ++i)
-        on_boundary[face.vertices[i]] = true;
+    std::vector<std::array<unsigned int, 6>> nodes(mesh.faces.size());
+    std::unique_ptr<mesh::EdgeFinder>        finder;
     if (edges != nullptr)
-      {
-        numbers.reserve(2 * mesh.faces.size());
-        for (const auto &face : mesh.faces)
-          for (unsigned int i = 0; i < 3; ++i)
-            numbers[edge_key(face.vertices[i], face.vertices[(i + 1) % 3])] = 0;
-        for (unsigned int e = 0; e < edges->edges.size(); ++e)
-          {
-            const auto &edge = edges->edges[e];
-            if (!on_boundary[edge[0]] || !on_boundary[edge[1]])
-              continue;
-            const auto found = numbers.find(edge_key(edge[0], edge[1]));
-            if (found != numbers.end())
-              found->second = mesh.n_points() + e;
-          }
-      }
+      finder = std::make_unique<mesh::EdgeFinder>(*edges, mesh.n_points());
     for (unsigned int f = 0; f < mesh.faces.size(); ++f)
       for (unsigned int i = 0; i < 3; ++i)
         {
-          const auto &v   = mesh.faces[f].vertices;
-          nodes[f][i]     = v[i];
-          nodes[f][3 + i] = edges == nullptr ? v[i] : numbers.at(edge_key(v[i], v[(i + 1) % 3]));
+          const auto &v = mesh.faces[f].vertices;
+          nodes[f][i]   = v[i];
+          nodes[f][3 + i]
+            = finder == nullptr ? v[i] : mesh.n_points() + finder->find(v[i], v[(i + 1) % 3]);
         }
     return nodes;
   }
