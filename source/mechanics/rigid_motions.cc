@@ -3,6 +3,7 @@
 
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/mesh/face_table.h"
+#include "tetradapt/mesh/mesh_checks.h"
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/lapack_full_matrix.h>
@@ -78,7 +79,8 @@ namespace tetradapt::mechanics
         message << "one of the " << n_parts << " separate parts of the body, the one ";
       else
         message << "the body ";
-      message << "between (" << part.lower << ") and (" << part.upper << ")";
+      message << "between " << mesh::to_string(part.lower) << " and "
+              << mesh::to_string(part.upper);
       if (part.n_prescribed == 0)
         message << ": none of its nodes is supported";
       else

@@ -69,14 +69,14 @@ namespace tetradapt::mesh
     {
       for (const int id : selector.ids)
         if (choice.ids.count(id) == 0)
-          throw core::InputError("'" + name + "' selects the boundary id " + std::to_string(id)
+          throw core::InputError(name + " selects the boundary id " + std::to_string(id)
                                  + ", but no face of the mesh's boundary has it. " + choice.text());
       for (const std::string &group : selector.groups)
         if (choice.groups.count(group) == 0)
           {
             const auto nearest
               = scene::nearest_names(group, {choice.groups.begin(), choice.groups.end()});
-            throw core::InputError("'" + name + "' selects the group '" + group
+            throw core::InputError(name + " selects the group '" + group
                                    + "', but no face of the mesh's boundary is in it. "
                                    + (nearest.empty() ? "" : "Did you mean '" + nearest[0] + "'? ")
                                    + choice.text());
@@ -100,10 +100,7 @@ namespace tetradapt::mesh
             in_list[p] = true;
         if (!selector.where.empty())
           {
-            expression = std::make_unique<core::Expression>(selector.where,
-                                                            "the expression that selects the "
-                                                            "faces of '"
-                                                              + name + "'");
+            expression = std::make_unique<core::Expression>(selector.where, name + "/Where");
             holds_at.assign(mesh.n_points(), unknown);
           }
       }
@@ -156,7 +153,7 @@ namespace tetradapt::mesh
       if (!selector.groups.empty())
         among += (among.empty() ? " in group " : " or in group ") + join(selector.groups);
       throw core::InputError(
-        "'" + name + "' selects no face of the boundary: '" + selector.where
+        name + " selects no face of the boundary: '" + selector.where
         + "' does not hold at the three corners and the centroid of any face" + among
         + ". The mesh extends from " + to_string(lower) + " to " + to_string(upper) + ". "
         + choice.text() + " Correct the expression; leave room for rounding, as in 'x < 1e-9'.");

@@ -34,7 +34,9 @@ namespace tetradapt::mesh
         {
           std::ostringstream message;
           message << "The wanted edge length '" << size.text() << "' is " << h << " at "
-                  << to_string(point) << "; it must be positive everywhere (Mesh/Size).";
+                  << to_string(point)
+                  << "; it must be positive everywhere. Correct Size in Mesh or "
+                     "Reference.";
           throw core::InputError(message.str());
         }
       return h;
