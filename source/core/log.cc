@@ -22,10 +22,19 @@ namespace tetradapt::core
                 sinks.end());
   }
 
+  Log
+  Log::with_progress_prefix(const std::string &prefix) const
+  {
+    Log log             = *this;
+    log.progress_prefix = prefix;
+    return log;
+  }
+
   void
   Log::progress(const std::string &text) const
   {
-    send(LogLevel::progress, text);
+    // An empty text takes the line away.
+    send(LogLevel::progress, text.empty() ? text : progress_prefix + text);
   }
 
   void

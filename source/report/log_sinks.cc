@@ -39,6 +39,25 @@ namespace tetradapt::report
           --length;
       return text.substr(0, length);
     }
+
+    /** What tells one stage's progress from another's: the words. */
+    std::string
+    without_numbers(const std::string &text)
+    {
+      std::string words;
+      for (const char c : text)
+        if (std::string("0123456789.+-e").find(c) == std::string::npos)
+          words += c;
+      return words;
+    }
+
+    std::string
+    seconds_text(const double seconds)
+    {
+      char text[40];
+      std::snprintf(text, sizeof text, "[%.1f s] ", seconds);
+      return text;
+    }
   } // namespace
 
   TerminalSink::TerminalSink(core::Log &log, std::ostream &stream, const Options &options)
@@ -60,6 +79,7 @@ namespace tetradapt::report
     Options     options;
     const char *terminal = std::getenv("TERM");
     options.quiet        = quiet;
+    options.show_time    = true;
     options.is_terminal
       = ::isatty(STDERR_FILENO) == 1 && terminal != nullptr && std::string(terminal) != "dumb";
     winsize size{};
@@ -90,13 +110,18 @@ namespace tetradapt::report
         clear_progress();
         return;
       }
-    const auto now = Clock::now();
-    if (progress_is_shown
+    const auto        now   = Clock::now();
+    const std::string stage = without_numbers(text.substr(0, text.find('\n')));
+    if (progress_is_shown && stage == last_stage
         && std::chrono::duration<double>(now - last_progress).count() < options.min_interval)
       return;
     // The last column stays free: some terminals wrap when it is written to.
-    stream << "\r\033[K" << one_line(text, options.width > 1 ? options.width - 1 : 1) << std::flush;
+    const std::string time
+      = options.show_time ? seconds_text(std::chrono::duration<double>(now - start).count()) : "";
+    stream << "\r\033[K" << one_line(time + text, options.width > 1 ? options.width - 1 : 1)
+           << std::flush;
     progress_is_shown = true;
+    last_stage        = stage;
     last_progress     = now;
   }
 

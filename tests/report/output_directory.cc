@@ -130,8 +130,12 @@ terminal_output(const bool is_terminal, const bool quiet, const double min_inter
   options.min_interval = min_interval;
   {
     const report::TerminalSink sink(log, stream, options);
-    log.progress("solve: step 1 of 20");
-    log.progress("step 2\nmore");
+    log.progress("step 1e-1 of 20");
+    log.progress("step 2.5 of 20\nmore");
+    log.progress("another stage");
+    const core::Log in_cycle = log.with_progress_prefix("c 3: ");
+    in_cycle.progress("step 3");
+    in_cycle.info("as it is");
     log.info("info");
     log.progress("");
     log.progress("12345678 \xc3\xa9t\xc3\xa9"); // cut in the middle of the last letter

@@ -33,6 +33,12 @@ namespace tetradapt::core
     void
     remove_sink(unsigned int number);
 
+    /** A log with the same sinks that puts @p prefix before progress messages: what
+     * it is handed to need not know which cycle it works for. Use it no longer than
+     * the sinks are there. */
+    Log
+    with_progress_prefix(const std::string &prefix) const;
+
     void
     progress(const std::string &text) const;
     void
@@ -48,6 +54,7 @@ namespace tetradapt::core
 
     std::vector<std::pair<unsigned int, Sink>> sinks;
     unsigned int                               next_number = 0;
+    std::string                                progress_prefix;
   };
 } // namespace tetradapt::core
 

@@ -27,9 +27,12 @@ namespace tetradapt::report
       bool quiet = false;
       /** Longer progress lines are cut. */
       unsigned int width = 80;
-      /** Progress that comes sooner after the line before, in seconds, is
-       * dropped, so that an iteration may report every step. */
+      /** Progress that differs from the line before only in its numbers and comes
+       * sooner, in seconds, is dropped, so that an iteration may report every step.
+       * A new stage is always shown: it may be one that takes long. */
       double min_interval = 0.1;
+      /** Whether progress starts with the seconds since construction. */
+      bool show_time = false;
     };
 
     /** @p log and @p stream must outlive the object. */
@@ -58,7 +61,9 @@ namespace tetradapt::report
     Options           options;
     unsigned int      number;
     bool              progress_is_shown = false;
+    std::string       last_stage; ///< the line that is shown, without its digits
     Clock::time_point last_progress;
+    Clock::time_point start = Clock::now();
   };
 
   /**
