@@ -52,7 +52,8 @@ namespace tetradapt::mesh
   {
     check_box(lower, upper);
     PiecewiseLinearComplex plc;
-    plc.name = "the box";
+    plc.name             = "the box";
+    plc.volume_tolerance = 1e-9;
     for (unsigned int i = 0; i < 8; ++i)
       plc.points.emplace_back((i & 1) != 0 ? upper[0] : lower[0],
                               (i & 2) != 0 ? upper[1] : lower[1],

@@ -162,9 +162,8 @@ namespace tetradapt::mesh
     Census       before = expected_census(surface, plc);
     const Census after  = take_census(mesh);
     check_regions(after, plc);
-    before.regions = after.regions;
-    // Facets within 0.01 degree become one plane.
-    const double drift = check_kept(before, after, 1e-6, plc.name);
+    before.regions     = after.regions;
+    const double drift = check_kept(before, after, plc.volume_tolerance, plc.name);
     if (report != nullptr)
       {
         report->called   = true;

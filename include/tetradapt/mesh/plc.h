@@ -32,6 +32,9 @@ namespace tetradapt::mesh
     std::vector<Facet>    facets;
     std::vector<Patch>    patches;
     std::vector<Region>   regions; ///< empty: everything is region 0
+    /** Relative change of the volume that is taken for rounding: facets within 0.01
+     * degree of one plane are meshed as one. */
+    double volume_tolerance = 1e-6;
   };
 
   /**

@@ -50,8 +50,8 @@ namespace tetradapt::mesh
     /**
      * Fills @p plc with tetrahedra. Before, the boundary is screened by
      * geometry::check_surface(); afterwards it is checked that there are cells,
-     * that they fill the boundary's volume (to 1e-6, and 1e-9 for facets without
-     * rounding errors), and that each patch has its area and each region cells.
+     * that they fill the boundary's volume, and that each patch has its area and each
+     * region cells.
      *
      * @param sizing cell_volumes must be empty; node_sizes are sizes at the
      *        points of @p plc.
