@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/cli/application.h"
 
+#include "tetradapt/cli/check_inputs.h"
 #include "tetradapt/cli/load_scene.h"
 #include "tetradapt/cli/outcome.h"
 #include "tetradapt/cli/run_scene.h"
@@ -82,6 +83,14 @@ namespace tetradapt::cli
             const scene::Scene scene = load_scene(file, options);
             if (!print)
               return;
+            try
+              {
+                check_inputs(scene);
+              }
+            catch (const core::InputError &error)
+              {
+                throw core::InputError(scene.with_place(error.what()));
+              }
             for (const auto &warning : scene.warnings())
               std::cerr << "warning: " << warning << '\n';
             if (!options.quiet)

@@ -71,6 +71,8 @@ end
     const auto valid = run("--validate s.prm");
     check("validated", valid.code == 0 && contains(valid.err, "s.prm: valid"));
     check("  with both lists", contains(valid.err, "needs") && contains(valid.err, "skips"));
+    const auto faces = run("--validate --quiet --set Loads/l/Groups=nix s.prm");
+    check("  with the mesh's faces", faces.code == 2 && contains(faces.err, "the group 'nix'"));
     check("  nothing was run", valid.out.empty() && !fs::exists("output"));
     write("bad.prm", "set Degree = 3\n");
     const auto mixed = run("--validate --quiet s.prm bad.prm");
