@@ -50,10 +50,11 @@ namespace tetradapt::adapt
     double
     largest_norm(const std::vector<dealii::Tensor<1, 3>> &values)
     {
+      // Not by squares, which vanish for very small displacements.
       double largest = 0.;
       for (const auto &value : values)
-        largest = std::max(largest, value.norm_square());
-      return std::sqrt(largest);
+        largest = std::max(largest, std::hypot(value[0], value[1], value[2]));
+      return largest;
     }
   } // namespace
 
@@ -146,6 +147,12 @@ namespace tetradapt::adapt
     log.info(text.str());
   }
 
+  core::Log
+  Driver::in_cycle(unsigned int number) const
+  {
+    return log.with_progress_prefix("cycle " + std::to_string(number) + ": ");
+  }
+
   Driver::Cycle
   Driver::solve_cycle(unsigned int number)
   {
@@ -154,7 +161,7 @@ namespace tetradapt::adapt
     {
       const auto scope = timer.scope("solve");
       cycle.solution   = solve::solve_static(
-        scene, *materials, mesh, scene.degree, communicator, log, start.get());
+        scene, *materials, mesh, scene.degree, communicator, in_cycle(number), start.get());
     }
     cycle.record.points           = mesh->n_points();
     cycle.record.tets             = mesh->n_cells();
@@ -176,7 +183,7 @@ namespace tetradapt::adapt
   {
     {
       const auto scope = timer.scope("estimate");
-      log.progress("comparing and estimating");
+      in_cycle(cycle.record.cycle).progress("comparing and estimating");
       fill_errors(cycle);
       if (plan.needs(Plan::marking) || plan.needs(Plan::sizing))
         cycle.indicators
@@ -338,10 +345,10 @@ namespace tetradapt::adapt
   }
 
   void
-  Driver::refine_mesh(const SizeField &field)
+  Driver::refine_mesh(const SizeField &field, unsigned int number)
   {
     const unsigned int old_tets = mesh->n_cells();
-    log.progress("TetGen refines " + std::to_string(old_tets) + " tetrahedra");
+    in_cycle(number).progress("TetGen refines " + std::to_string(old_tets) + " tetrahedra");
     const mesh::Tetgen tetgen(scene.tetgen);
     const auto         old_mesh = mesh;
     mesh                        = mesh::make_on_first_rank(communicator, [&]() {
@@ -367,18 +374,32 @@ namespace tetradapt::adapt
     SizeField field;
     {
       const auto scope = timer.scope("marking");
-      log.progress("marking and sizing");
+      in_cycle(cycle.record.cycle).progress("marking and sizing");
       field = make_size_field(cycle);
     }
     const double largest = *std::max_element(cycle.indicators.begin(), cycle.indicators.end());
     if (largest == 0. || field.n_refined == 0)
       return decide_nothing_to_refine(largest);
 
+    const auto         old_mesh = mesh;
     const unsigned int old_tets = mesh->n_cells();
-    {
-      const auto scope = timer.scope("mesh");
-      refine_mesh(field);
-    }
+    const bool         can_insist
+      = scene.adaptivity.marking == scene::AdaptivityParameters::Marking::optimal_size;
+    for (unsigned int attempt = 0; attempt < 4; ++attempt)
+      {
+        {
+          const auto scope = timer.scope("mesh");
+          refine_mesh(field, cycle.record.cycle + 1);
+        }
+        if (mesh->n_cells() != old_tets || !can_insist)
+          break;
+        // Sizes that are just not below what TetGen would split change nothing: the
+        // factor, learnt from a few cells, was too large.
+        mesh                    = old_mesh;
+        obtained_over_predicted = 0.5 * field.obtained_over_predicted;
+        const auto scope        = timer.scope("marking");
+        field                   = make_size_field(cycle);
+      }
     obtained_over_predicted = next_obtained_over_predicted(field, mesh->n_cells());
     prepare_start(cycle);
     return decide_new_mesh(old_tets, mesh->n_cells());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/mesh/mesh_factory.h"
 
+#include "tetradapt/core/exceptions.h"
 #include "tetradapt/geometry/remeshing.h"
 #include "tetradapt/geometry/surface_io.h"
 #include "tetradapt/mesh/bricks.h"
@@ -10,6 +11,7 @@
 #include "tetradapt/mesh/tetgen.h"
 #include "tetradapt/mesh/volume_reader.h"
 
+#include <algorithm>
 #include <sstream>
 
 namespace tetradapt::mesh
@@ -45,6 +47,22 @@ namespace tetradapt::mesh
       if (!remeshed.kept_features)
         log.warning(file + ": sharp edges could not be kept by the remeshing.");
       return remeshed.surface.mesh;
+    }
+
+    /** Volumes and their squares must stay within double precision, or energies
+     * vanish without a word. */
+    void
+    check_extent(const TetMesh &mesh)
+    {
+      double extent = 0.;
+      for (const auto &point : mesh.points)
+        extent = std::max(extent, point.distance(mesh.points.front()));
+      if (extent >= 1e-40 && extent <= 1e40)
+        return;
+      std::ostringstream text;
+      text << "The mesh has an extent of " << extent
+           << "; 1e-40 to 1e40 can be computed with. Choose another unit of length.";
+      throw core::InputError(text.str());
     }
 
     TetMesh
@@ -98,6 +116,7 @@ namespace tetradapt::mesh
   make_mesh(const scene::Scene &scene, unsigned int number, const core::Log &log)
   {
     TetMesh mesh = unselected_mesh(scene, number, log);
+    check_extent(mesh);
     if (!scene.mesh.size.empty())
       {
         log.progress("TetGen refines to Mesh/Size");

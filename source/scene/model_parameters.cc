@@ -166,7 +166,8 @@ namespace tetradapt::scene
              p.energy,
              number_codec(),
              "Known a(u,u), the integral of strain : C : strain, which is twice the strain "
-             "energy and the work of the loads; 0: unknown.");
+             "energy and the work of the loads (with a temperature: of the whole strain, so not "
+             "twice the table's strain energy); 0: unknown.");
     }
 
     void

@@ -80,7 +80,10 @@ namespace tetradapt::adapt
     double
     wanted_indicator_norm(const Cycle &cycle) const;
     void
-    refine_mesh(const SizeField &field);
+    refine_mesh(const SizeField &field, unsigned int number);
+    /** The log, its progress beginning with a cycle's number. */
+    core::Log
+    in_cycle(unsigned int number) const;
     void
     prepare_start(Cycle &cycle);
 
