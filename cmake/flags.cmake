@@ -37,9 +37,9 @@ function(tetradapt_settings _target)
   target_compile_options(${_target} PRIVATE ${_own_flags})
 endfunction()
 
-# Lets a target start from the common precompiled headers.
-function(tetradapt_precompile _target)
-  if(TARGET tetradapt_pch)
-    target_precompile_headers(${_target} REUSE_FROM tetradapt_pch)
+# Lets a target start from the common precompiled headers: light or solver.
+function(tetradapt_precompile _target _kind)
+  if(TARGET tetradapt_pch_${_kind})
+    target_precompile_headers(${_target} REUSE_FROM tetradapt_pch_${_kind})
   endif()
 endfunction()

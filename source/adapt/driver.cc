@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/adapt/driver.h"
 
+#include "tetradapt/adapt/cycle_errors.h"
 #include "tetradapt/compare/transfer.h"
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/on_first_rank.h"
@@ -27,24 +28,6 @@ namespace tetradapt::adapt
       int rank = 0;
       MPI_Comm_rank(communicator, &rank);
       return rank == 0;
-    }
-
-    std::optional<double>
-    ratio(double value, double scale)
-    {
-      return scale > 0. ? std::optional<double>(value / scale) : std::nullopt;
-    }
-
-    /** Puts the norms of a difference in the record, as absolute and relative errors. */
-    void
-    set_errors(const compare::Difference &difference, CycleRecord &record)
-    {
-      record.l2_error              = difference.l2;
-      record.h1_error              = difference.h1;
-      record.energy_error          = difference.energy;
-      record.relative_l2_error     = ratio(difference.l2, difference.l2_norm);
-      record.relative_h1_error     = ratio(difference.h1, difference.h1_norm);
-      record.relative_energy_error = ratio(difference.energy, difference.energy_norm);
     }
 
     double
@@ -184,7 +167,13 @@ namespace tetradapt::adapt
     {
       const auto scope = timer.scope("estimate");
       in_cycle(cycle.record.cycle).progress("comparing and estimating");
-      fill_errors(cycle);
+      const MeasuredErrors measured = measure_errors({scene, plan, drive, reference.get()},
+                                                     cycle.solution.energy,
+                                                     *cycle.comparison,
+                                                     cycle.record);
+      cycle.true_energy_error       = measured.true_energy_error;
+      if (!measured.warning.empty())
+        log.warning(measured.warning);
       if (plan.needs(Plan::marking) || plan.needs(Plan::sizing))
         cycle.indicators
           = estimate::make_estimator(estimate::estimator_name(scene.adaptivity.driver))
@@ -203,49 +192,6 @@ namespace tetradapt::adapt
         record.seconds_solve -= before.seconds_solve;
         record.seconds_estimate -= before.seconds_estimate;
         record.seconds_total -= before.seconds_total;
-      }
-  }
-
-  void
-  Driver::fill_errors(Cycle &cycle)
-  {
-    CycleRecord          &record     = cycle.record;
-    estimate::Comparison &comparison = *cycle.comparison;
-    if (plan.needs(Plan::extrapolation))
-      {
-        const compare::Difference &difference = comparison.to_reference();
-        set_errors(difference, record);
-        record.estimate          = difference.energy;
-        record.relative_estimate = record.relative_energy_error;
-        record.reference_error   = ratio(reference->estimated_error, difference.energy_norm);
-      }
-    std::optional<double> true_error;
-    if (plan.needs(Plan::known_energy))
-      {
-        const auto known
-          = estimate::error_from_known_energy(scene.truth.energy, cycle.solution.energy, drive);
-        if (!known.warning.empty())
-          log.warning(known.warning);
-        if (known.error)
-          {
-            record.energy_error          = known.error;
-            record.relative_energy_error = known.relative_error;
-            true_error                   = known.error;
-            cycle.true_energy_error      = true;
-          }
-      }
-    if (plan.needs(Plan::exact_comparison))
-      {
-        set_errors(comparison.to_truth(), record);
-        true_error              = record.energy_error;
-        cycle.true_energy_error = true;
-      }
-    record.effectivity = estimate::effectivity(record.estimate, true_error);
-    if (plan.needs(Plan::nodal_ren))
-      {
-        const compare::NodalRen &ren = comparison.ren();
-        record.mean_ren              = ren.mean_of_points;
-        record.max_ren               = ren.max;
       }
   }
 
@@ -378,8 +324,10 @@ namespace tetradapt::adapt
       field = make_size_field(cycle);
     }
     const double largest = *std::max_element(cycle.indicators.begin(), cycle.indicators.end());
-    if (largest == 0. || field.n_refined == 0)
-      return decide_nothing_to_refine(largest);
+    // Below this an error is rounding, and refining would chase noise.
+    const bool is_exact = cycle.record.relative_energy_error.value_or(1.) < 1e-10;
+    if (largest == 0. || is_exact || field.n_refined == 0)
+      return decide_nothing_to_refine(is_exact ? 0. : largest);
 
     const auto         old_mesh = mesh;
     const unsigned int old_tets = mesh->n_cells();

@@ -44,7 +44,8 @@ namespace tetradapt::estimate
         text.precision(9);
         text << "The known energy " << known_energy << " contradicts the computed one, " << energy
              << ", which must be " << (drive == Drive::loads ? "below" : "above")
-             << " it: check the known energy (a(u,u), twice the strain energy), the loads and the "
+             << " it: check the known energy (a(u,u), the integral of strain : C : strain), the "
+                "loads and the "
              << "material.";
         result.warning = text.str();
         return result;

@@ -77,7 +77,11 @@ namespace tetradapt::report
        0,
        figure,
        [](const Record &r) { return r.relative_estimate; }},
-      {"reference_error", nullptr, 0, figure, [](const Record &r) { return r.reference_error; }},
+      {"reference_error",
+       "ref. err.",
+       9,
+       figure,
+       [](const Record &r) { return r.reference_error; }},
       {"iterations", nullptr, 0, count, [](const Record &r) -> Value { return r.iterations; }}};
     return columns;
   }

@@ -65,8 +65,6 @@ namespace tetradapt::adapt
     void
     compare_and_estimate(Cycle &cycle);
     void
-    fill_errors(Cycle &cycle);
-    void
     announce(const Cycle &cycle);
     StopDecision
     decide(const Cycle &cycle) const;

@@ -3,8 +3,8 @@
 // and saves 3 s a file; with DoFHandler, FEValues and Trilinos it would cost 40 s
 // and save 4 s. A file still includes what it uses: it must compile without this
 // header (TETRADAPT_PCH=OFF).
-#ifndef tetradapt_precompiled_h
-#define tetradapt_precompiled_h
+#ifndef tetradapt_precompiled_solver_h
+#define tetradapt_precompiled_solver_h
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/symmetric_tensor.h>
