@@ -300,12 +300,7 @@ namespace tetradapt::adapt
     mesh                        = mesh::make_on_first_rank(communicator, [&]() {
       mesh::TetgenReport report;
       mesh::TetMesh      refined = tetgen.refine(*old_mesh, field.sizing, &report);
-      if (report.cap_reached)
-        log.warning("TetGen stopped at TetGen/Steiner points, before the wanted sizes were "
-                                           "reached.");
-      if (report.oversized_cells > 0)
-        log.warning(std::to_string(report.oversized_cells)
-                    + " tetrahedra are larger than asked for.");
+      mesh::warn_of_unmet_wishes(report, log);
       return refined;
     });
     std::ostringstream text;

@@ -41,8 +41,8 @@ namespace tetradapt::mesh
       std::ostringstream text;
       text << "Surface " << file << ": " << surface.triangles.size() << " triangles remeshed to "
            << remeshed.surface.mesh.triangles.size() << " with edges of about "
-           << parameters.surface_edge_length << "; its volume changed by "
-           << 100. * remeshed.volume_change << " %";
+           << remeshed.edge_length << "; its volume changed by " << 100. * remeshed.volume_change
+           << " %";
       log.info(text.str());
       if (!remeshed.kept_features)
         log.warning(file + ": sharp edges could not be kept by the remeshing.");
@@ -80,25 +80,52 @@ namespace tetradapt::mesh
                         parameters.upper_corner,
                         entry(parameters.cells, number));
         case scene::MeshSource::box:
-          return tetgen.mesh(box_complex(parameters.lower_corner, parameters.upper_corner), sizing);
+          {
+            TetgenReport  report;
+            const TetMesh mesh
+              = tetgen.mesh(box_complex(parameters.lower_corner, parameters.upper_corner),
+                            sizing,
+                            &report);
+            warn_of_unmet_wishes(report, log);
+            return mesh;
+          }
         case scene::MeshSource::surface:
           {
             const std::string &file    = entry(parameters.files, number);
             const auto         surface = load_surface(parameters, file, log);
             log.progress("TetGen meshes the surface");
-            return tetgen.mesh(surface_complex(surface, file), sizing);
+            TetgenReport  report;
+            const TetMesh mesh = tetgen.mesh(surface_complex(surface, file), sizing, &report);
+            warn_of_unmet_wishes(report, log);
+            return mesh;
           }
         case scene::MeshSource::file:
           {
             const std::string &file = entry(parameters.files, number);
             log.progress("reading " + file);
-            TetMesh mesh = read_volume_mesh(file);
-            return sizing.max_volume > 0. ? tetgen.refine(mesh, sizing) : mesh;
+            const TetMesh mesh = read_volume_mesh(file);
+            if (sizing.max_volume <= 0.)
+              return mesh;
+            TetgenReport  report;
+            const TetMesh refined = tetgen.refine(mesh, sizing, &report);
+            warn_of_unmet_wishes(report, log);
+            return refined;
           }
         }
       return {};
     }
   } // namespace
+
+  void
+  warn_of_unmet_wishes(const TetgenReport &report, const core::Log &log)
+  {
+    if (report.cap_reached)
+      log.warning("TetGen stopped at TetGen/Steiner points, before the wanted sizes were reached.");
+    if (report.oversized_cells > 0)
+      log.warning(std::to_string(report.oversized_cells)
+                  + " tetrahedra are larger than asked for (look at TetGen/Keep boundary and "
+                    "Steiner points).");
+  }
 
   std::vector<std::pair<std::string, scene::Selector>>
   face_selectors(const scene::Scene &scene)

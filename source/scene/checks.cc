@@ -109,13 +109,13 @@ namespace tetradapt::scene
                 const double       dihedral_angle,
                 const std::string &section)
   {
-    require(radius_edge_ratio > 1.,
+    require(radius_edge_ratio >= 1.1,
             section + "/Radius-edge ratio",
             "TetGen never ends with a bound of " + text_of(radius_edge_ratio)
-              + ": it must be larger than 1, and 1.2 (strict) to 2 (loose) is usual.");
-    require(dihedral_angle >= 0. && dihedral_angle <= 30.,
+              + ": it must be at least 1.1, and 1.2 (strict) to 2 (loose) is usual.");
+    require(dihedral_angle >= 0. && dihedral_angle <= 20.,
             section + "/Minimum dihedral angle",
             "TetGen cannot obtain " + text_of(dihedral_angle)
-              + " degrees: choose 0 (no bound) to 30; up to 18 is usual.");
+              + " degrees: choose 0 (no bound) to 20; up to 18 is usual.");
   }
 } // namespace tetradapt::scene

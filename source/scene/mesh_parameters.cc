@@ -67,11 +67,11 @@ namespace tetradapt::scene
       binder("Radius-edge ratio",
              p.radius_edge_ratio,
              number_codec(),
-             "Largest ratio of circumradius to shortest edge (-q). Smaller is stricter; above 1.");
+             "Largest ratio of circumradius to shortest edge (-q). Smaller is stricter; at least 1.1.");
       binder("Minimum dihedral angle",
              p.dihedral_angle,
              number_codec(),
-             "Smallest dihedral angle to aim at, in degrees (-q/); 0: none.");
+             "Smallest dihedral angle to aim at, in degrees (-q/), at most 20; 0: none.");
       binder("Optimisation level",
              p.optimisation_level,
              count_codec(),

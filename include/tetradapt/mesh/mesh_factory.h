@@ -3,7 +3,7 @@
 #define tetradapt_mesh_mesh_factory_h
 
 #include "tetradapt/core/log.h"
-#include "tetradapt/mesh/tet_mesh.h"
+#include "tetradapt/mesh/tetgen.h"
 #include "tetradapt/scene/scene.h"
 
 namespace tetradapt::mesh
@@ -11,6 +11,10 @@ namespace tetradapt::mesh
   /** The selectors of the scene's supports and face loads, by name. */
   std::vector<std::pair<std::string, scene::Selector>>
   face_selectors(const scene::Scene &scene);
+
+  /** Warns of what TetGen could not do. */
+  void
+  warn_of_unmet_wishes(const TetgenReport &report, const core::Log &log);
 
   /**
    * Makes mesh @p number of those that the scene lists (0 where it lists one): reads

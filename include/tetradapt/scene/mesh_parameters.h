@@ -72,7 +72,7 @@ namespace tetradapt::scene
   /** How TetGen is run. */
   struct TetgenParameters
   {
-    double       radius_edge_ratio   = 1.414; ///< -q; smaller is stricter; > 1
+    double       radius_edge_ratio   = 1.414; ///< -q; smaller is stricter; at least 1.1
     double       dihedral_angle      = 10.;   ///< -q/: smallest dihedral angle, degrees
     unsigned int optimisation_level  = 2;     ///< -O
     unsigned int optimisation_scheme = 7;     ///< -O/
