@@ -25,10 +25,12 @@ namespace tetradapt::cli
       const mechanics::MaterialMap materials(scene, mesh::make_mesh(scene, number, core::Log()));
     if (!given)
       for (const std::string &file : mesh.files)
-        if (mesh.source == scene::MeshSource::surface)
-          geometry::check_surface(geometry::read_surface(file), file);
-        else if (mesh.source == scene::MeshSource::file)
-          mesh::read_volume_mesh(file);
+        {
+          if (mesh.source == scene::MeshSource::surface)
+            geometry::check_surface(geometry::read_surface(file), file);
+          else if (mesh.source == scene::MeshSource::file)
+            mesh::read_volume_mesh(file);
+        }
     using Reference = scene::ReferenceParameters;
     if (scene.reference.type == Reference::Type::run
         || (scene.reference.type == Reference::Type::fine_mesh
