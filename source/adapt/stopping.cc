@@ -291,7 +291,8 @@ namespace tetradapt::adapt
     if (largest_indicator == 0.)
       {
         decision.reason = StopReason::no_error;
-        decision.text   = "Stopped: every error indicator is zero up to rounding, so there is nothing to refine.";
+        decision.text
+          = "Stopped: every error indicator is zero up to rounding, so there is nothing to refine.";
       }
     else
       {

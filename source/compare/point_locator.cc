@@ -2,10 +2,10 @@
 #include "tetradapt/compare/point_locator.h"
 
 #include "tetradapt/compare/cell_search.h"
-#include "tetradapt/compare/space_curve.h"
 #include "tetradapt/compare/walk_cell.h"
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/mesh/face_table.h"
+#include "tetradapt/mesh/space_curve.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +39,7 @@ namespace tetradapt::compare
 
     std::shared_ptr<const mesh::TetMesh>     mesh;
     std::vector<std::array<unsigned int, 4>> neighbours; ///< in the mesh's numbering
-    SpaceCurve                               curve;
+    mesh::SpaceCurve                         curve;
     std::vector<WalkCell>                    cells; ///< sorted along the curve
     std::vector<std::uint64_t>               codes; ///< of the cells' centroids, sorted
     std::vector<unsigned int>                place; ///< of the mesh's cells in cells

@@ -3,8 +3,8 @@
 
 #include "tetradapt/compare/field_evaluator.h"
 #include "tetradapt/compare/parallel.h"
-#include "tetradapt/compare/space_curve.h"
 #include "tetradapt/compare/tet_quadrature.h"
+#include "tetradapt/mesh/space_curve.h"
 
 #include <cmath>
 
@@ -22,7 +22,7 @@ namespace tetradapt::compare
     std::vector<Point<3>> centroids(n_cells);
     for (unsigned int cell = 0; cell < n_cells; ++cell)
       centroids[cell] = position(mesh, cell, {{.25, .25, .25, .25}});
-    const auto order = SpaceCurve(box.first, box.second).order(centroids);
+    const auto order = mesh::SpaceCurve(box.first, box.second).order(centroids);
     cells.assign(order.begin() + slice.begin, order.begin() + slice.end);
 
     // Exact for the gradient's square (degree 2) and the value's (degree 4).

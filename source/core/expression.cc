@@ -12,32 +12,39 @@ namespace tetradapt::core
 {
   namespace
   {
-    double choose(double condition, double yes, double no)
+    double
+    choose(double condition, double yes, double no)
     {
       return condition != 0. ? yes : no;
     }
-    double negate(double value)
+    double
+    negate(double value)
     {
       return value == 0. ? 1. : 0.;
     }
-    double power(double base, double exponent)
+    double
+    power(double base, double exponent)
     {
       return std::pow(base, exponent);
     }
-    double round_down(double value)
+    double
+    round_down(double value)
     {
       return std::floor(value);
     }
-    double round_up(double value)
+    double
+    round_up(double value)
     {
       return std::ceil(value);
     }
-    double remainder_of(double value, double divisor)
+    double
+    remainder_of(double value, double divisor)
     {
       return std::fmod(value, divisor);
     }
 
-    void define_names(mu::Parser &parser)
+    void
+    define_names(mu::Parser &parser)
     {
       parser.DefineConst("pi", std::acos(-1.));
       parser.DefineConst("e", std::exp(1.));
@@ -99,16 +106,19 @@ namespace tetradapt::core
 
   Expression::Expression(Expression &&other) noexcept = default;
 
-  Expression &Expression::operator=(const Expression &other)
+  Expression &
+  Expression::operator=(const Expression &other)
   {
     return *this = Expression(other);
   }
 
-  Expression &Expression::operator=(Expression &&other) noexcept = default;
+  Expression &
+  Expression::operator=(Expression &&other) noexcept = default;
 
   Expression::~Expression() = default;
 
-  double Expression::operator()(const Point<3> &point, double t) const
+  double
+  Expression::operator()(const Point<3> &point, double t) const
   {
     auto &v = implementation->variables;
     v       = {{point[0], point[1], point[2], t}};
@@ -136,17 +146,20 @@ namespace tetradapt::core
     return value;
   }
 
-  bool Expression::holds(const Point<3> &point, double t) const
+  bool
+  Expression::holds(const Point<3> &point, double t) const
   {
     return (*this)(point, t) != 0.;
   }
 
-  bool Expression::is_constant() const
+  bool
+  Expression::is_constant() const
   {
     return implementation->constant;
   }
 
-  const std::string &Expression::text() const
+  const std::string &
+  Expression::text() const
   {
     return implementation->text;
   }
@@ -159,7 +172,8 @@ namespace tetradapt::core
   {
   }
 
-  Tensor<1, 3> VectorExpression::operator()(const Point<3> &point, double t) const
+  Tensor<1, 3>
+  VectorExpression::operator()(const Point<3> &point, double t) const
   {
     Tensor<1, 3> value;
     for (unsigned int c = 0; c < 3; ++c)
@@ -167,7 +181,8 @@ namespace tetradapt::core
     return value;
   }
 
-  bool VectorExpression::is_constant() const
+  bool
+  VectorExpression::is_constant() const
   {
     return components[0].is_constant() && components[1].is_constant()
            && components[2].is_constant();

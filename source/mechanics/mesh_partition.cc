@@ -1,60 +1,29 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/mechanics/mesh_partition.h"
 
+#include "tetradapt/mesh/space_curve.h"
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/distributed/fully_distributed_tria.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria_description.h>
 
 #include <algorithm>
-#include <cstdint>
-#include <numeric>
 
 namespace tetradapt::mechanics
 {
   namespace
   {
-    /** Spreads the lower 21 bits of @p v to every third bit. */
-    std::uint64_t
-    spread_bits(std::uint64_t v)
-    {
-      v &= 0x1fffff;
-      v = (v | v << 32) & 0x1f00000000ffffULL;
-      v = (v | v << 16) & 0x1f0000ff0000ffULL;
-      v = (v | v << 8) & 0x100f00f00f00f00fULL;
-      v = (v | v << 4) & 0x10c30c30c30c30c3ULL;
-      v = (v | v << 2) & 0x1249249249249249ULL;
-      return v;
-    }
-
-    /** Cell numbers sorted by the Morton code of the centroids. */
+    /** Cell numbers sorted by their centroids along a curve through space. */
     std::vector<unsigned int>
-    morton_order(const mesh::TetMesh &mesh)
+    order_in_space(const mesh::TetMesh &mesh)
     {
-      const auto box    = mesh::bounding_box(mesh);
-      double     extent = 0.;
-      for (unsigned int d = 0; d < 3; ++d)
-        extent = std::max(extent, box.second[d] - box.first[d]);
-      const double scale = extent > 0. ? ((1 << 21) - 1) / (4. * extent) : 0.;
-
-      std::vector<std::pair<std::uint64_t, unsigned int>> keys(mesh.n_cells());
+      std::vector<dealii::Point<3>> centroids(mesh.n_cells());
       for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-        {
-          std::uint64_t key = 0;
-          for (unsigned int d = 0; d < 3; ++d)
-            {
-              double sum = 0.;
-              for (const unsigned int v : mesh.cells[c])
-                sum += mesh.points[v][d] - box.first[d];
-              key |= spread_bits(static_cast<std::uint64_t>(std::max(0., sum * scale))) << d;
-            }
-          keys[c] = {key, c};
-        }
-      std::sort(keys.begin(), keys.end());
-      std::vector<unsigned int> order(mesh.n_cells());
-      for (unsigned int i = 0; i < order.size(); ++i)
-        order[i] = keys[i].second;
-      return order;
+        for (const unsigned int v : mesh.cells[c])
+          centroids[c] += 0.25 * dealii::Tensor<1, 3>(mesh.points[v]);
+      const auto box = mesh::bounding_box(mesh);
+      return mesh::SpaceCurve(box.first, box.second).order(centroids);
     }
 
     void
@@ -73,7 +42,7 @@ namespace tetradapt::mechanics
   } // namespace
 
   MeshPartition::MeshPartition(const mesh::TetMesh &mesh, MPI_Comm communicator)
-    : tet_mesh(mesh), mpi_communicator(communicator), cell_order(morton_order(mesh))
+    : tet_mesh(mesh), mpi_communicator(communicator), cell_order(order_in_space(mesh))
   {
     const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
     if (n_ranks == 1)

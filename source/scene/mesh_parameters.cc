@@ -64,10 +64,11 @@ namespace tetradapt::scene
     void
     bind(TetgenParameters &p, Binder &binder)
     {
-      binder("Radius-edge ratio",
-             p.radius_edge_ratio,
-             number_codec(),
-             "Largest ratio of circumradius to shortest edge (-q). Smaller is stricter; at least 1.1.");
+      binder(
+        "Radius-edge ratio",
+        p.radius_edge_ratio,
+        number_codec(),
+        "Largest ratio of circumradius to shortest edge (-q). Smaller is stricter; at least 1.1.");
       binder("Minimum dihedral angle",
              p.dihedral_angle,
              number_codec(),

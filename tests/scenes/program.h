@@ -16,10 +16,19 @@
 #include <vector>
 
 /** Runs the program as a user does and reads what it wrote. All of it happens in
- * the test's own working directory. */
+ * the folder `work` of the test's own working directory: there, deal.II's test
+ * scripts keep a file `output`, which the program's own folder must not meet. */
 namespace program
 {
   namespace fs = std::filesystem;
+
+  /** A new, empty folder is entered before main() begins. */
+  inline const bool is_in_own_folder = [] {
+    fs::remove_all("work");
+    fs::create_directory("work");
+    fs::current_path("work");
+    return true;
+  }();
 
   inline std::string
   read(const fs::path &file)

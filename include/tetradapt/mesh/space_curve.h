@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#ifndef tetradapt_compare_space_curve_h
-#define tetradapt_compare_space_curve_h
+#ifndef tetradapt_mesh_space_curve_h
+#define tetradapt_mesh_space_curve_h
 
 #include <deal.II/base/point.h>
 
 #include <cstdint>
 #include <vector>
 
-namespace tetradapt::compare
+namespace tetradapt::mesh
 {
   using dealii::Point;
 
@@ -35,6 +35,6 @@ namespace tetradapt::compare
     Point<3> origin;
     double   scale;
   };
-} // namespace tetradapt::compare
+} // namespace tetradapt::mesh
 
 #endif

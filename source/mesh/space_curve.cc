@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "tetradapt/compare/space_curve.h"
+#include "tetradapt/mesh/space_curve.h"
 
 #include <boost/sort/spreadsort/integer_sort.hpp>
 
 #include <algorithm>
 
-namespace tetradapt::compare
+namespace tetradapt::mesh
 {
   namespace
   {
@@ -75,4 +75,4 @@ namespace tetradapt::compare
       numbers[i] = entries[i].number;
     return numbers;
   }
-} // namespace tetradapt::compare
+} // namespace tetradapt::mesh
