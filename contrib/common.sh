@@ -19,10 +19,6 @@ if [ "$(id -u)" = 0 ]; then
   export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 fi
 
-# Ranks on one machine talk through memory; without a network Open MPI 5 complains
-# of its TCP transport in between the program's lines.
-export OMPI_MCA_btl="${OMPI_MCA_btl:-^tcp}"
-
 # Prints which of the given packages are not installed.
 missing_packages() {
   # dpkg-query fails for names that it has never heard of.
