@@ -186,7 +186,12 @@ namespace tetradapt::cli
       run_options.command_line += (i == 0 ? "" : " ") + quoted(argv[i]);
     if (!launch.by_launcher)
       prepare_single_process();
-    const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+    // The name only: PETSc, which deal.II may start with MPI, would call every option
+    // of ours a spelling mistake.
+    int                                            n_names = 1;
+    char                                          *names[] = {argv[0], nullptr};
+    char                                         **first   = names;
+    const dealii::Utilities::MPI::MPI_InitFinalize mpi(n_names, first, 1);
     return run(options, run_options);
   }
 } // namespace tetradapt::cli
