@@ -49,6 +49,16 @@ namespace tetradapt::scene
              p.gradation,
              number_codec(),
              "Most by which the edge length may grow over a distance of one.");
+      binder("Safeguard",
+             p.safeguard,
+             yes_no_codec(),
+             "adaptive: do not accept a mesh whose energy says that the solution became worse: "
+             "refine the one before more strongly, then uniformly.");
+      binder("Coarsening",
+             p.coarsening,
+             yes_no_codec(),
+             "adaptive: let elements grow where the error is small, by meshing the body anew with "
+             "the wanted sizes instead of refining the old mesh.");
     }
 
     void
@@ -61,10 +71,11 @@ namespace tetradapt::scene
              "tetrahedron cut into 8 each cycle. adaptive: refined where the error is.");
       binder("Driver",
              p.driver,
-             word_codec<AdaptivityParameters::Driver>(),
-             "adaptive: which error drives the refinement: the energy norm of the difference to "
-             "the reference, the relative nodal error REN, or the true error in the energy norm "
-             "(needs Truth/Displacement).");
+             word_codec<ErrorEstimator>(),
+             "adaptive: which error drives the refinement. energy, ren: the difference to the "
+             "reference in the energy norm, or as relative nodal error. exact: the true error "
+             "(needs Truth/Displacement). goal: of Estimation/Goal. The others need nothing but "
+             "the solution.");
       binder("Marking",
              p.marking,
              word_codec<AdaptivityParameters::Marking>(),
@@ -84,6 +95,10 @@ namespace tetradapt::scene
              p.ren_tolerance,
              number_codec(),
              "Stop when the mean REN is below; 0: no such stop.");
+      binder("Goal tolerance",
+             p.goal_tolerance,
+             number_codec(),
+             "Stop when the relative error of Estimation/Goal is below; 0: no such stop.");
       binder("Maximum cycles",
              p.max_cycles,
              count_codec(),
@@ -113,6 +128,12 @@ namespace tetradapt::scene
       binder("Tables", p.tables, yes_no_codec(), "Write convergence.csv and convergence.txt.");
       binder("VTU", p.vtu, yes_no_codec(), "Write a .vtu file per cycle and the .pvd.");
       binder("Stress", p.stress, yes_no_codec(), "Stress and von Mises stress in the .vtu.");
+      binder("Plots", p.plots, yes_no_codec(), "Draw convergence and errors (SVG, by gnuplot).");
+      binder("Size field",
+             p.size_field,
+             yes_no_codec(),
+             "Write size_field.vtu, the sizes that the run ends with: another scene can start from "
+             "it by Mesh/Size field.");
     }
 
     void
@@ -178,6 +199,7 @@ namespace tetradapt::scene
             "Adaptivity/Tolerance",
             "is a relative error: it must be smaller than 1, such as 0.05.");
     check_not_negative(ren_tolerance, "REN tolerance", "no such stop");
+    check_not_negative(goal_tolerance, "Goal tolerance", "no such stop");
     require(max_cycles > 0, "Adaptivity/Maximum cycles", "must be at least 1.");
     check_not_negative(max_seconds, "Maximum seconds", "no limit");
   }

@@ -25,8 +25,13 @@ namespace tetradapt::scene
         {"Solver", "How the linear systems are solved."},
         {"Reference", "The fine solution that the error is measured with."},
         {"Truth", "What is known of the true solution."},
+        {"Goals", "Values to be known: one subsection each, with a name of your choice."},
+        {"Estimation", "Which error estimators are computed, beside the one that drives."},
         {"Adaptivity", "Whether and how the mesh changes from cycle to cycle."},
-        {"Output", "What is written, and where."}};
+        {"Output", "What is written, and where."},
+        {"Study",
+         "What a study varies: one subsection for each, with a name of your choice. The scene is "
+         "run for every combination of their cases."}};
       return texts;
     }
 
@@ -64,8 +69,11 @@ namespace tetradapt::scene
       in("Solver", scene.solver);
       in("Reference", scene.reference);
       in("Truth", scene.truth);
+      in_blocks("Goals", scene.goals);
+      in("Estimation", scene.estimation);
       in("Adaptivity", scene.adaptivity);
       in("Output", scene.output);
+      in_blocks("Study", scene.variations);
     }
 
     template <class Block>
@@ -109,14 +117,18 @@ namespace tetradapt::scene
     scene.materials.resize(1);
     scene.supports.resize(1);
     scene.loads.resize(1);
+    scene.goals.resize(1);
+    scene.variations.resize(1);
     scene.materials[0].name = scene.supports[0].name = scene.loads[0].name = name_placeholder;
+    scene.goals[0].name = scene.variations[0].name = name_placeholder;
     return scene;
   }
 
   bool
   has_named_blocks(const std::string &section)
   {
-    return section == "Materials" || section == "Supports" || section == "Loads";
+    return section == "Materials" || section == "Supports" || section == "Loads"
+           || section == "Goals" || section == "Study";
   }
 
   std::string
@@ -147,8 +159,12 @@ namespace tetradapt::scene
       add_to(scene.materials, section, name, prm);
     else if (section == "Supports")
       add_to(scene.supports, section, name, prm);
-    else
+    else if (section == "Loads")
       add_to(scene.loads, section, name, prm);
+    else if (section == "Goals")
+      add_to(scene.goals, section, name, prm);
+    else
+      add_to(scene.variations, section, name, prm);
   }
 
   void

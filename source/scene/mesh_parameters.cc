@@ -17,7 +17,8 @@ namespace tetradapt::scene
       binder("Type",
              p.source,
              word_codec<MeshSource>(),
-             "Where the mesh comes from: a box meshed by TetGen, a box of bricks cut into 6 "
+             "Where the mesh comes from: a box, or blocks (a union of boxes), meshed by TetGen, a "
+             "box of bricks cut into 6 "
              "tetrahedra each, a volume mesh from a file, or a closed surface from a file, "
              "meshed by TetGen.");
       binder("Lower corner",
@@ -34,6 +35,15 @@ namespace tetradapt::scene
              bricks_codec(),
              "bricks: how many along x, y and z. Several, separated by commas, make a study: "
              "one cycle each.");
+      binder("Blocks",
+             p.blocks,
+             boxes_codec(),
+             "blocks: boxes, each by its lower and upper corner, that touch but do not overlap. "
+             "Outer faces have the ids and group names of a box, by their direction.");
+      binder("Block regions",
+             p.block_regions,
+             ids_codec(),
+             "blocks: the region id of each block; empty: 0 for all.");
       binder("Files",
              p.files,
              paths_codec(),
@@ -58,7 +68,29 @@ namespace tetradapt::scene
       binder("Size",
              p.size,
              text_codec("an expression in x, y, z, or nothing"),
-             "box, surface, file: wanted edge length, an expression in x, y, z; empty: none.");
+             "box, blocks, surface, file: wanted edge length, an expression in x, y, z; empty: "
+             "none.");
+      binder("Size field",
+             p.size_field,
+             text_codec("the name of a file, or nothing"),
+             "box, blocks, surface, file: the size_field.vtu of an earlier run (of this scene with "
+             "other loads or materials, or of a similar body) whose sizes the first mesh gets.");
+      binder("Projection",
+             p.projection,
+             word_codec<MeshParameters::Projection>(),
+             "Where new points on a curved boundary go: they stay on the flat faces of the mesh "
+             "before (none), move to a fine triangulated surface, or to the zero set of an "
+             "expression.");
+      binder("Projection file",
+             p.projection_file,
+             text_codec("the name of a file, or nothing"),
+             "surface: a closed surface (.stl, .off, .obj, .ply); empty: that of Files.");
+      binder("Projection functions",
+             p.projection_functions,
+             expression_list_codec(),
+             "expression: functions of x, y, z that vanish on the boundary, such as x^2 + y^2 + "
+             "z^2 - 4; a face belongs to the first that vanishes at its corners, other faces stay "
+             "flat.");
     }
 
     void
@@ -167,6 +199,60 @@ namespace tetradapt::scene
               "Mesh/Volume bound",
               "give a list of files or a list of volume bounds, not both.");
     }
+
+    void
+    check_blocks(const MeshParameters &p)
+    {
+      require(!p.blocks.empty(), "Mesh/Blocks", "give at least one box, such as 0,0,0 : 1,1,1.");
+      for (std::size_t i = 0; i < p.blocks.size(); ++i)
+        {
+          const auto &[lower, upper] = p.blocks[i];
+          const std::string which    = "block " + std::to_string(i + 1) + " ";
+          for (unsigned int d = 0; d < 3; ++d)
+            require(upper[d] > lower[d],
+                    "Mesh/Blocks",
+                    which + "ends at " + "xyz"[d] + " = " + text_of(upper[d])
+                      + ", which is not above its beginning, " + text_of(lower[d])
+                      + ". Exchange or correct them.");
+          for (std::size_t j = 0; j < i; ++j)
+            {
+              bool overlap = true;
+              for (unsigned int d = 0; d < 3; ++d)
+                overlap
+                  = overlap && p.blocks[j].first[d] < upper[d] && lower[d] < p.blocks[j].second[d];
+              require(!overlap,
+                      "Mesh/Blocks",
+                      which + "overlaps block " + std::to_string(j + 1)
+                        + ". Blocks may share faces only.");
+            }
+        }
+      require(p.block_regions.empty() || p.block_regions.size() == p.blocks.size(),
+              "Mesh/Block regions",
+              "there are " + std::to_string(p.block_regions.size()) + " ids for "
+                + std::to_string(p.blocks.size()) + " blocks. Give one each, or none.");
+    }
+
+    void
+    check_projection(const MeshParameters &p)
+    {
+      using Projection = MeshParameters::Projection;
+      if (p.projection == Projection::surface)
+        {
+          require(!p.projection_file.empty() || p.source == MeshSource::surface,
+                  "Mesh/Projection file",
+                  "Projection = surface needs the surface to project on.");
+          if (!p.projection_file.empty())
+            check_file(p.projection_file, "Mesh/Projection file", {".stl", ".off", ".obj", ".ply"});
+        }
+      if (p.projection == Projection::expression)
+        {
+          require(!p.projection_functions.empty(),
+                  "Mesh/Projection functions",
+                  "Projection = expression needs functions such as x^2 + y^2 + z^2 - 4.");
+          for (const auto &function : p.projection_functions)
+            check_expression(function, "Mesh/Projection functions");
+        }
+    }
   } // namespace
 
   void
@@ -206,8 +292,13 @@ namespace tetradapt::scene
                 "a mesh of Type = " + word(source)
                   + " reads no file. Remove this, or set Type to file or surface.");
       }
+    else if (source == MeshSource::blocks)
+      check_blocks(*this);
     else
       check_files(*this);
+    check_projection(*this);
+    if (!size_field.empty())
+      check_file(size_field, "Mesh/Size field", {".vtu"});
     if (source != MeshSource::surface)
       require(surface_edge_length == 0.,
               "Mesh/Surface edge length",
@@ -222,6 +313,9 @@ namespace tetradapt::scene
     if (source == MeshSource::bricks)
       {
         check_cells(*this);
+        require(size_field.empty(),
+                "Mesh/Size field",
+                "the size of bricks is set by Cells. Remove this, or use Type = box.");
         require(size.empty() && volume_bounds == std::vector<double>{0.},
                 size.empty() ? "Mesh/Volume bound" : "Mesh/Size",
                 "the size of bricks is set by Cells. Remove this, or use Type = box.");

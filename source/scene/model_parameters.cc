@@ -73,7 +73,8 @@ namespace tetradapt::scene
     bool
     acts_on_faces(const LoadType type)
     {
-      return type == LoadType::traction || type == LoadType::pressure;
+      return type == LoadType::traction || type == LoadType::pressure
+             || type == LoadType::nodal_force;
     }
 
     bool
@@ -88,8 +89,10 @@ namespace tetradapt::scene
       binder("Type",
              p.type,
              word_codec<LoadType>(),
-             "traction: force per area; pressure: force per area against the outer normal; body "
-             "force: force per volume; gravity: an acceleration, times the density; "
+             "traction: force per area; pressure: force per area against the outer normal; nodal "
+             "force: a force at every mesh point of the faces, so that the whole load grows with "
+             "the mesh (for comparison with programs that do this); body force: force per volume; "
+             "gravity: an acceleration, times the density; "
              "temperature: its change, which causes thermal strain.");
       const bool  on_faces = acts_on_faces(p.type);
       Selector    faces    = on_faces ? p.selector : Selector();

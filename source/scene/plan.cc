@@ -80,7 +80,7 @@ namespace tetradapt::scene
     bool
     has_initial_sizes(const Scene &scene)
     {
-      return !scene.mesh.size.empty()
+      return !scene.mesh.size.empty() || !scene.mesh.size_field.empty()
              || std::any_of(scene.mesh.volume_bounds.begin(),
                             scene.mesh.volume_bounds.end(),
                             [](const double bound) { return bound > 0.; });
@@ -96,6 +96,7 @@ namespace tetradapt::scene
     add_solver_stages(scene);
     add_reference_stages(scene);
     add_error_stages(scene);
+    add_estimation_stages(scene);
     add_adaptivity_stages(scene);
     add_output_stages(scene);
   }
@@ -126,7 +127,7 @@ namespace tetradapt::scene
     add(brick_meshing, "bricks", source == MeshSource::bricks, type, type);
     add(tetgen_meshing,
         "TetGen meshing",
-        source == MeshSource::box || source == MeshSource::surface,
+        source == MeshSource::box || source == MeshSource::blocks || source == MeshSource::surface,
         type,
         "the mesh is given: " + type);
     const bool refine = source == MeshSource::file && has_initial_sizes(scene);
@@ -177,6 +178,7 @@ namespace tetradapt::scene
     const std::string user      = user_of_reference(scene);
     const bool        used      = !user.empty() && reference.type != Reference::none;
     const bool        solved    = used && reference.type == Reference::fine_mesh;
+    const bool        hexahedra = used && reference.type == Reference::hexahedra;
     const bool        refined   = solved && reference.route == Route::refine;
     const std::string type      = "Reference/Type = " + word(reference.type);
     const std::string absent
@@ -191,7 +193,8 @@ namespace tetradapt::scene
         refined,
         "the first mesh is refined to Reference/Volume bound or Size",
         solved ? "Reference/Mesh = " + word(reference.route) : absent);
-    add(reference_solution, "reference solution", solved, user, absent);
+    add(hexahedral_reference, "hexahedral reference", hexahedra, user, absent);
+    add(reference_solution, "reference solution", solved, user, hexahedra ? type : absent);
     add(reference_file,
         "reference from a file",
         used && reference.type == Reference::run,
@@ -241,6 +244,39 @@ namespace tetradapt::scene
   }
 
   void
+  Plan::add_estimation_stages(const Scene &scene)
+  {
+    std::string names;
+    bool        goal    = false;
+    const auto  include = [&](const ErrorEstimator which) {
+      goal = goal || which == ErrorEstimator::goal;
+      if (which != ErrorEstimator::energy && which != ErrorEstimator::ren
+          && which != ErrorEstimator::exact)
+        names += (names.empty() ? "" : ", ") + word(which);
+    };
+    if (is_adaptive(scene) && scene.adaptivity.max_cycles > 1)
+      include(scene.adaptivity.driver);
+    for (const ErrorEstimator which : scene.estimation.estimators)
+      if (!is_driven_by(scene, which))
+        include(which);
+    add(estimation,
+        "error estimators",
+        !names.empty(),
+        names,
+        "no estimator drives, and Estimation/Estimators lists none that would be needed");
+    add(goal_values,
+        "goals",
+        !scene.goals.empty(),
+        std::to_string(scene.goals.size()) + " in Goals",
+        "the section Goals is empty");
+    add(dual_solution,
+        "dual solution",
+        goal,
+        "the estimator 'goal' needs it",
+        "no estimator is about a goal");
+  }
+
+  void
   Plan::add_adaptivity_stages(const Scene &scene)
   {
     const auto       &adapt    = scene.adaptivity;
@@ -262,9 +298,20 @@ namespace tetradapt::scene
     add(sizing, "size field", adaptive, rule, reason);
     add(tetgen_refinement,
         "TetGen refinement",
-        adaptive,
+        adaptive && !adapt.coarsening,
         "Adaptivity/Route = " + word(adapt.route),
-        reason);
+        adaptive ? "Adaptivity/Coarsening = yes" : reason);
+    add(body_remeshing,
+        "meshing the body anew",
+        adaptive && adapt.coarsening,
+        "Adaptivity/Coarsening = yes",
+        adaptive ? "Adaptivity/Coarsening = no" : reason);
+    const std::string projection = "Mesh/Projection = " + word(scene.mesh.projection);
+    add(boundary_projection,
+        "projection of the boundary",
+        scene.mesh.projection != MeshParameters::Projection::none,
+        projection,
+        projection);
     add(uniform_refinement, "uniform refinement", uniform, strategy, reason);
   }
 
@@ -280,6 +327,12 @@ namespace tetradapt::scene
         output.vtu ? "Output/Stress = no" : no_vtu);
     add(vtu_output, ".vtu output", output.vtu, "Output/VTU = yes", no_vtu);
     add(tables, "tables", output.tables, "Output/Tables = yes", "Output/Tables = no");
+    add(plots, "plots", output.plots, "Output/Plots = yes", "Output/Plots = no");
+    add(size_field_output,
+        "size field of the run",
+        output.size_field,
+        "Output/Size field = yes",
+        "Output/Size field = no");
   }
 
   std::string

@@ -115,12 +115,77 @@ namespace tetradapt::scene
     {
       scene.reference.check();
       using Reference = ReferenceParameters;
+      require(scene.reference.type != Reference::Type::hexahedra
+                || scene.mesh.source == MeshSource::box || scene.mesh.source == MeshSource::bricks
+                || scene.mesh.source == MeshSource::blocks,
+              "Reference/Type",
+              "hexahedra fill bodies made of boxes only, but the scene's mesh is a "
+                + word(scene.mesh.source) + ". Use Type = fine mesh.");
       require(scene.reference.type != Reference::Type::fine_mesh
                 || scene.reference.route != Reference::MeshRoute::bricks
                 || scene.mesh.source == MeshSource::box || scene.mesh.source == MeshSource::bricks,
               "Reference/Mesh",
               "bricks fill a box only, but the scene's mesh is a " + word(scene.mesh.source)
                 + ". Use Mesh = refine or file.");
+    }
+
+    /** @throws InputError if the scene lacks what @p which needs; @p path names
+     * the parameter that asks for it. */
+    void
+    check_estimator(const Scene &scene, const ErrorEstimator which, const std::string &path)
+    {
+      const bool has_u   = scene.truth.has_displacement();
+      const bool has_ref = scene.reference.type != ReferenceParameters::Type::none;
+      require(which != ErrorEstimator::energy || has_ref,
+              path,
+              "energy compares with a reference, and there is none. Set Reference/Type = fine "
+              "mesh, or use spr or another estimator that needs none.");
+      require(which != ErrorEstimator::ren || has_ref || has_u,
+              path,
+              "ren compares with a reference or an exact displacement, and there is neither. Set "
+              "Reference/Type = fine mesh or give Truth/Displacement.");
+      require(which != ErrorEstimator::exact || has_u,
+              path,
+              "exact needs the exact displacement. Give Truth/Displacement, or use spr or another "
+              "estimator that does not need it.");
+      require(which != ErrorEstimator::goal || !scene.goals.empty(),
+              path,
+              "the estimator 'goal' needs a goal. Add a subsection to Goals.");
+    }
+
+    void
+    check_estimation(const Scene &scene)
+    {
+      for (const auto &goal : scene.goals)
+        goal.check();
+      scene.estimation.check();
+      for (const ErrorEstimator which : scene.estimation.estimators)
+        check_estimator(scene, which, "Estimation/Estimators");
+      bool        known = scene.estimation.goal.empty();
+      std::string names;
+      for (const auto &goal : scene.goals)
+        {
+          known = known || goal.name == scene.estimation.goal;
+          names += (names.empty() ? "" : ", ") + goal.name;
+        }
+      require(known,
+              "Estimation/Goal",
+              "there is no goal '" + scene.estimation.goal + "'. "
+                + (names.empty() ? "The scene has none." : "There is: " + names + "."));
+    }
+
+    void
+    check_study(const Scene &scene)
+    {
+      double n_runs = 1.;
+      for (const auto &variation : scene.variations)
+        {
+          variation.check();
+          n_runs *= variation.cases.size();
+        }
+      require(n_runs <= 1000.,
+              "Study",
+              "its combinations are " + text_of(n_runs) + " runs. At most 1000 are made.");
     }
 
     void
@@ -143,27 +208,21 @@ namespace tetradapt::scene
                   + " meshes, which only Strategy = mesh list uses. Set that, or list one mesh.");
       if (adapt.strategy == Adaptivity::Strategy::adaptive)
         {
-          require(adapt.driver != Adaptivity::Driver::energy || has_ref,
-                  "Adaptivity/Driver",
-                  "energy compares with a reference, and there is none. Set Reference/Type = "
-                  "fine mesh, or use Driver = exact with a Truth/Displacement.");
-          require(adapt.driver != Adaptivity::Driver::ren || has_ref || has_u,
-                  "Adaptivity/Driver",
-                  "ren compares with a reference or an exact displacement, and there is "
-                  "neither. Set Reference/Type = fine mesh or give Truth/Displacement.");
-          require(adapt.driver != Adaptivity::Driver::exact || has_u,
-                  "Adaptivity/Driver",
-                  "exact needs the exact displacement. Give Truth/Displacement, or use Driver = "
-                  "energy with a reference.");
-          require(!scene.tetgen.keep_boundary,
-                  "TetGen/Keep boundary",
-                  "adaptive refinement stalls without new points on the boundary. Set it to no.");
+          check_estimator(scene, adapt.driver, "Adaptivity/Driver");
+          require(!adapt.coarsening || scene.mesh.source != MeshSource::bricks,
+                  "Adaptivity/Coarsening",
+                  "bricks have no surface to mesh anew. Use Mesh/Type = box.");
         }
-      require(adapt.tolerance == 0. || has_ref || has_u || scene.truth.has_energy(),
-              "Adaptivity/Tolerance",
-              "the error cannot be measured: there is no reference and no truth. Set "
-              "Reference/Type = fine mesh, give Truth/Energy or Truth/Displacement, or remove "
-              "this.");
+      require(
+        adapt.tolerance == 0. || has_ref || has_u || scene.truth.has_energy()
+          || !energy_estimator(scene).empty(),
+        "Adaptivity/Tolerance",
+        "the error cannot be measured: there is no estimator of the energy norm, no reference "
+        "and no truth. Set Estimation/Estimators = spr, or Reference/Type = fine mesh, give "
+        "Truth/Energy or Truth/Displacement, or remove this.");
+      require(adapt.goal_tolerance == 0. || !scene.goals.empty(),
+              "Adaptivity/Goal tolerance",
+              "the scene has no goal. Add a subsection to Goals, or remove this.");
       require(adapt.ren_tolerance == 0. || has_ref || has_u,
               "Adaptivity/REN tolerance",
               "REN cannot be measured: there is no reference and no exact displacement. Set "
@@ -185,7 +244,9 @@ namespace tetradapt::scene
     check_loads(*this);
     solver.check();
     check_reference(*this);
+    check_estimation(*this);
     check_strategy(*this);
+    check_study(*this);
     output.check();
     check_truth_gradient(*this);
   }

@@ -5,6 +5,7 @@
 #include "values.h"
 
 #include "tetradapt/core/expression.h"
+#include "tetradapt/scene/words.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +13,23 @@
 
 namespace tetradapt::scene
 {
+  std::string
+  energy_estimator(const Scene &scene)
+  {
+    // What is left out needs a reference or a truth, or is no energy norm.
+    const auto tells_energy = [](const ErrorEstimator which) {
+      return which != ErrorEstimator::energy && which != ErrorEstimator::ren
+             && which != ErrorEstimator::exact && which != ErrorEstimator::goal;
+    };
+    const auto &adapt = scene.adaptivity;
+    if (adapt.strategy == AdaptivityParameters::Strategy::adaptive && tells_energy(adapt.driver))
+      return word(adapt.driver);
+    for (const ErrorEstimator which : scene.estimation.estimators)
+      if (tells_energy(which))
+        return word(which);
+    return "";
+  }
+
   bool
   all_zero(const std::array<std::string, 3> &expressions)
   {

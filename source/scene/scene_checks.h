@@ -8,6 +8,11 @@
 
 namespace tetradapt::scene
 {
+  /** The name of the first estimator of the scene, the driver of an adaptive run first, that
+   * tells an energy norm without reference or truth; empty: none. */
+  std::string
+  energy_estimator(const Scene &scene);
+
   /** Whether the three expressions are constants of value zero. */
   bool
   all_zero(const std::array<std::string, 3> &expressions);

@@ -254,6 +254,9 @@ namespace tetradapt::scene
         parse(scene, prm);
         for (auto &name : scene.mesh.files)
           name = absolute(name, sink.folder_of("Mesh/Files"));
+        scene.mesh.size_field = absolute(scene.mesh.size_field, sink.folder_of("Mesh/Size field"));
+        scene.mesh.projection_file
+          = absolute(scene.mesh.projection_file, sink.folder_of("Mesh/Projection file"));
         scene.reference.file = absolute(scene.reference.file, sink.folder_of("Reference/File"));
         scene.check();
       }

@@ -28,6 +28,16 @@ namespace tetradapt::scene
              p.direct_limit,
              count_codec(),
              "automatic: largest number of unknowns for the direct solver.");
+      binder("Stopping",
+             p.stopping,
+             word_codec<SolverParameters::Stopping>(),
+             "What ends conjugate gradients: the residual's Tolerance, or an estimate of the "
+             "iterate's own error in the energy norm that is small beside the error of the mesh, "
+             "foretold from the cycle before.");
+      binder("Algebraic fraction",
+             p.algebraic_fraction,
+             number_codec(),
+             "discretisation: how small, as a part of the error of the mesh.");
     }
 
     void
@@ -37,13 +47,26 @@ namespace tetradapt::scene
              p.type,
              word_codec<ReferenceParameters::Type>(),
              "The fine solution to compare with: none, one on a fine mesh that this program "
-             "solves (once: it is kept in a cache), or the .vtu file of an earlier run.");
+             "solves (once: it is kept in a cache), one on hexahedra refined where its own error "
+             "is (for bodies made of axis-parallel boxes), or the .vtu file of an earlier run.");
       binder("Mesh",
              p.route,
              word_codec<ReferenceParameters::MeshRoute>(),
              "fine mesh: refine the scene's first mesh by TetGen, cut the box into bricks, or "
              "read a file.");
-      binder("Degree", p.degree, count_codec(), "fine mesh: polynomial degree, 1 or 2.");
+      binder("Degree",
+             p.degree,
+             count_codec(),
+             "fine mesh: polynomial degree, 1 or 2. hexahedra: 2 or 3.");
+      binder("Tolerance",
+             p.tolerance,
+             number_codec(),
+             "hexahedra: refined until the estimate of its own relative energy error is below; 0: "
+             "a tenth of Adaptivity/Tolerance, or 0.001 if there is none.");
+      binder("Maximum unknowns",
+             p.max_dofs,
+             long_count_codec(),
+             "hexahedra: no system larger than that.");
       binder("Cells", p.cells, brick_codec(), "bricks: how many along x, y and z.");
       binder("Volume bound",
              p.volume_bound,
@@ -97,6 +120,9 @@ namespace tetradapt::scene
             "Solver/Tolerance",
             "must be between 0 and 1, such as 1e-8; it is " + text_of(tolerance) + ".");
     require(max_iterations > 0, "Solver/Maximum iterations", "must be at least 1.");
+    require(algebraic_fraction > 0. && algebraic_fraction < 1.,
+            "Solver/Algebraic fraction",
+            "must be between 0 and 1, such as 0.1; it is " + text_of(algebraic_fraction) + ".");
   }
 
   void
@@ -122,6 +148,16 @@ namespace tetradapt::scene
                 "Reference/File",
                 "Type = earlier run needs the name of a run's .vtu file.");
         check_file(file, "Reference/File", {".vtu"});
+        return;
+      }
+    if (type == Type::hexahedra)
+      {
+        require(degree == 2 || degree == 3, "Reference/Degree", "must be 2 or 3 for hexahedra.");
+        require(tolerance >= 0. && tolerance < 1.,
+                "Reference/Tolerance",
+                "is a relative error: it must be positive and smaller than 1, or 0; it is "
+                  + text_of(tolerance) + ".");
+        require(max_dofs >= 1000, "Reference/Maximum unknowns", "must be at least 1000.");
         return;
       }
     require(degree == 1 || degree == 2, "Reference/Degree", "must be 1 or 2.");

@@ -281,4 +281,71 @@ namespace tetradapt::scene
               return text;
             }};
   }
+
+  Codec<std::vector<std::pair<dealii::Point<3>, dealii::Point<3>>>>
+  boxes_codec()
+  {
+    using Box = std::pair<dealii::Point<3>, dealii::Point<3>>;
+    return list_codec<Box>(
+      "boxes such as 0, 0, 0 : 1, 1, 2, separated by semicolons",
+      ';',
+      [](const std::string &text, Box &value) {
+        const auto corners = split(text, ':');
+        const auto point   = point_codec();
+        return corners.size() == 2 && point.read(corners[0], value.first)
+               && point.read(corners[1], value.second);
+      },
+      [](const Box &value) {
+        return point_codec().write(value.first) + " : " + point_codec().write(value.second);
+      });
+  }
+
+  Codec<std::optional<double>>
+  optional_number_codec()
+  {
+    return {"a finite number, or nothing",
+            [](const std::string &text, std::optional<double> &value) {
+              value.reset();
+              if (trim(text).empty())
+                return true;
+              value = 0.;
+              return read_double(text, *value);
+            },
+            [](const std::optional<double> &value) { return value ? text_of(*value) : ""; }};
+  }
+
+  Codec<std::vector<std::string>>
+  parameter_names_codec()
+  {
+    return list_codec<std::string>("names such as Adaptivity/Driver, separated by &",
+                                   '&',
+                                   read_name,
+                                   same);
+  }
+
+  Codec<std::vector<std::vector<std::string>>>
+  cases_codec()
+  {
+    const auto values = list_codec<std::string>("", '&', read_name, same);
+    return list_codec<std::vector<std::string>>(
+      "cases separated by |, in each as many values as parameters, separated by &",
+      '|',
+      values.read,
+      values.write);
+  }
+
+  Codec<std::vector<std::string>>
+  labels_codec()
+  {
+    return list_codec<std::string>("texts separated by |", '|', read_name, same);
+  }
+
+  Codec<std::vector<std::string>>
+  expression_list_codec()
+  {
+    return list_codec<std::string>("expressions in x, y, z separated by semicolons, or nothing",
+                                   ';',
+                                   read_name,
+                                   same);
+  }
 } // namespace tetradapt::scene

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,34 @@ namespace tetradapt::scene
             [](const E &value) { return word(value); }};
   }
 
+  /** Several of the words of an enumeration, separated by commas. */
+  template <class E>
+  Codec<std::vector<E>>
+  words_codec()
+  {
+    const Codec<E> one      = word_codec<E>();
+    std::string    expected = "a list, separated by commas, of ";
+    for (const auto &entry : words(E()))
+      expected += (expected.back() == ' ' ? "'" : ", '") + entry.second + "'";
+    return {expected,
+            [one](const std::string &text, std::vector<E> &value) {
+              value.clear();
+              for (const auto &part : split(text, ','))
+                {
+                  value.emplace_back();
+                  if (!one.read(part, value.back()))
+                    return false;
+                }
+              return true;
+            },
+            [one](const std::vector<E> &value) {
+              std::string text;
+              for (const E element : value)
+                text += (text.empty() ? "" : ", ") + one.write(element);
+              return text;
+            }};
+  }
+
   Codec<double>
   number_codec();
   Codec<unsigned int>
@@ -82,6 +111,24 @@ namespace tetradapt::scene
   brick_codec();
   Codec<std::vector<std::array<unsigned int, 3>>>
   bricks_codec();
+  /** Axis-parallel boxes, each by two opposite corners. */
+  Codec<std::vector<std::pair<dealii::Point<3>, dealii::Point<3>>>>
+  boxes_codec();
+  /** A number, or nothing. */
+  Codec<std::optional<double>>
+  optional_number_codec();
+  /** Full names of parameters, separated by "&". */
+  Codec<std::vector<std::string>>
+  parameter_names_codec();
+  /** Cases separated by "|", in each values separated by "&". */
+  Codec<std::vector<std::vector<std::string>>>
+  cases_codec();
+  /** Expressions separated by semicolons. */
+  Codec<std::vector<std::string>>
+  expression_list_codec();
+  /** Texts separated by "|". */
+  Codec<std::vector<std::string>>
+  labels_codec();
   /** Components of a displacement: "all", or some of x, y, z. */
   Codec<std::array<bool, 3>>
   components_codec();

@@ -30,8 +30,11 @@ namespace tetradapt::scene
       const auto &reference = scene.reference;
       const auto &adapt     = scene.adaptivity;
       when(mesh.source != MeshSource::bricks, {"Mesh/Cells"}, "Mesh/Type = " + word(mesh.source));
-      when(mesh.source == MeshSource::file || mesh.source == MeshSource::surface,
+      when(mesh.source != MeshSource::box && mesh.source != MeshSource::bricks,
            {"Mesh/Lower corner", "Mesh/Upper corner"},
+           "Mesh/Type = " + word(mesh.source));
+      when(mesh.source != MeshSource::blocks,
+           {"Mesh/Blocks", "Mesh/Block regions"},
            "Mesh/Type = " + word(mesh.source));
       when(mesh.source != MeshSource::surface,
            {"Mesh/Feature angle"},
@@ -51,7 +54,11 @@ namespace tetradapt::scene
            "Reference/Mesh = " + word(reference.route));
       const bool adaptive = adapt.strategy == Strategy::adaptive;
       when(!adaptive,
-           {"Adaptivity/Driver", "Adaptivity/Marking", "Adaptivity/Route"},
+           {"Adaptivity/Driver",
+            "Adaptivity/Marking",
+            "Adaptivity/Route",
+            "Adaptivity/Safeguard",
+            "Adaptivity/Coarsening"},
            "Adaptivity/Strategy = " + word(adapt.strategy));
       const std::string marking = "Adaptivity/Marking = " + word(adapt.marking);
       when(adaptive && adapt.marking != Marking::maximum,
@@ -87,6 +94,9 @@ namespace tetradapt::scene
     if (tetgen.radius_edge_ratio < 1.1)
       messages.push_back("TetGen/Radius-edge ratio: TetGen may need very long with a bound below "
                          "1.1.");
+    if (adaptivity.strategy == Strategy::adaptive && tetgen.keep_boundary)
+      messages.push_back("TetGen/Keep boundary: adaptive refinement stalls without new points on "
+                         "the boundary.");
     if (adaptivity.strategy == Strategy::adaptive && adaptivity.max_cycles == 1)
       messages.push_back("Adaptivity/Maximum cycles: with one cycle nothing is refined.");
     if (reference.type == Reference::fine_mesh && reference.degree < degree)

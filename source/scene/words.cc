@@ -7,6 +7,7 @@ namespace tetradapt::scene
   words(MeshSource)
   {
     static const Words<MeshSource> table{{MeshSource::box, "box"},
+                                         {MeshSource::blocks, "blocks"},
                                          {MeshSource::bricks, "bricks"},
                                          {MeshSource::file, "file"},
                                          {MeshSource::surface, "surface"}};
@@ -18,6 +19,7 @@ namespace tetradapt::scene
   {
     static const Words<LoadType> table{{LoadType::traction, "traction"},
                                        {LoadType::pressure, "pressure"},
+                                       {LoadType::nodal_force, "nodal force"},
                                        {LoadType::body_force, "body force"},
                                        {LoadType::gravity, "gravity"},
                                        {LoadType::temperature, "temperature"}};
@@ -40,6 +42,7 @@ namespace tetradapt::scene
     using Type = ReferenceParameters::Type;
     static const Words<Type> table{{Type::none, "none"},
                                    {Type::fine_mesh, "fine mesh"},
+                                   {Type::hexahedra, "hexahedra"},
                                    {Type::run, "earlier run"}};
     return table;
   }
@@ -65,13 +68,52 @@ namespace tetradapt::scene
     return table;
   }
 
-  const Words<AdaptivityParameters::Driver> &
-  words(AdaptivityParameters::Driver)
+  const Words<ErrorEstimator> &
+  words(ErrorEstimator)
   {
-    using Driver = AdaptivityParameters::Driver;
-    static const Words<Driver> table{{Driver::energy, "energy"},
-                                     {Driver::ren, "ren"},
-                                     {Driver::exact, "exact"}};
+    using E = ErrorEstimator;
+    static const Words<E> table{{E::energy, "energy"},
+                                {E::ren, "ren"},
+                                {E::exact, "exact"},
+                                {E::degree_extrapolation, "degree extrapolation"},
+                                {E::local_degree_extrapolation, "local degree extrapolation"},
+                                {E::richardson, "richardson"},
+                                {E::averaging, "averaging"},
+                                {E::spr, "spr"},
+                                {E::residual, "residual"},
+                                {E::interpolation, "interpolation"},
+                                {E::goal, "goal"},
+                                {E::equilibrated, "equilibrated"}};
+    return table;
+  }
+
+  const Words<GoalType> &
+  words(GoalType)
+  {
+    static const Words<GoalType> table{{GoalType::point_displacement, "point displacement"},
+                                       {GoalType::mean_displacement, "mean displacement"},
+                                       {GoalType::point_stress, "point stress"},
+                                       {GoalType::mean_stress, "mean stress"},
+                                       {GoalType::functional, "functional"}};
+    return table;
+  }
+
+  const Words<MeshParameters::Projection> &
+  words(MeshParameters::Projection)
+  {
+    using Projection = MeshParameters::Projection;
+    static const Words<Projection> table{{Projection::none, "none"},
+                                         {Projection::surface, "surface"},
+                                         {Projection::expression, "expression"}};
+    return table;
+  }
+
+  const Words<SolverParameters::Stopping> &
+  words(SolverParameters::Stopping)
+  {
+    using Stopping = SolverParameters::Stopping;
+    static const Words<Stopping> table{{Stopping::residual, "residual"},
+                                       {Stopping::discretisation, "discretisation"}};
     return table;
   }
 

@@ -26,6 +26,7 @@ namespace tetradapt::scene
   enum class MeshSource
   {
     box,    ///< an axis-parallel box meshed by TetGen
+    blocks, ///< a union of axis-parallel boxes meshed by TetGen
     bricks, ///< n x n x m bricks cut into 6 tetrahedra each
     file,   ///< a volume mesh: .msh (2, 4), .vtk, .vtu, .node/.ele/.face
     surface ///< a closed surface (.stl, .off, .obj, .ply) meshed by TetGen
@@ -44,6 +45,11 @@ namespace tetradapt::scene
     Point<3> upper_corner{1., 1., 1.};
     /** bricks: numbers of bricks along x, y, z. */
     std::vector<std::array<unsigned int, 3>> cells{{{1, 1, 1}}};
+    /** blocks: lower and upper corners of boxes that overlap in faces only. Faces
+     * have the ids and names of box by their outer normal. */
+    std::vector<std::pair<Point<3>, Point<3>>> blocks;
+    /** blocks: region id of each; empty: all 0. */
+    std::vector<int> block_regions;
     /** file, surface: paths, as written in the scene, made absolute (relative
      * ones are relative to the scene's file) by the reader. */
     std::vector<std::string> files;
@@ -57,6 +63,22 @@ namespace tetradapt::scene
     std::vector<double> volume_bounds{0.};
     /** Wanted edge length as an expression in x, y, z; empty: none. */
     std::string size;
+    /** A size_field.vtu of an earlier run: wanted edge lengths, mapped from its
+     * bounding box to that of this body; empty: none. */
+    std::string size_field;
+    /** New points on a curved boundary are moved to the surface of the body: */
+    enum class Projection
+    {
+      none,
+      surface,   ///< the fine triangulated surface (surface_file, or the file of source surface)
+      expression ///< the zero set of one of the expressions below
+    };
+    Projection projection = Projection::none;
+    /** surface: empty: the file of the source surface. */
+    std::string projection_file;
+    /** expression: functions of x, y, z; a boundary face belongs to the first that is
+     * nearly zero at its three vertices. */
+    std::vector<std::string> projection_functions;
 
     unsigned int
     n_meshes() const;

@@ -77,11 +77,12 @@ namespace tetradapt::scene
 
   enum class LoadType
   {
-    traction,   ///< force per area, on faces
-    pressure,   ///< force per area against the outer normal, on faces
-    body_force, ///< force per volume, on regions
-    gravity,    ///< acceleration times the material's density, on regions
-    temperature ///< temperature change: thermal strain alpha T I, on regions
+    traction,    ///< force per area, on faces
+    pressure,    ///< force per area against the outer normal, on faces
+    body_force,  ///< force per volume, on regions
+    gravity,     ///< acceleration times the material's density, on regions
+    nodal_force, ///< a force at every node (point of the mesh) of the faces, as LML has it
+    temperature  ///< temperature change: thermal strain alpha T I, on regions
   };
 
   /** A load. */

@@ -31,6 +31,7 @@ namespace tetradapt::scene
       direct_solver,
       reference_mesh,       ///< making the reference's own mesh
       reference_refinement, ///< ... by TetGen from the first mesh
+      hexahedral_reference, ///< solving on an adaptive hexahedral mesh
       reference_solution,   ///< solving on it, or taking the solution from the cache
       reference_file,       ///< reading the .vtu of an earlier run
       reference_cache,      ///< looking for, and keeping, the reference on disk
@@ -39,13 +40,20 @@ namespace tetradapt::scene
       nodal_ren,            ///< relative nodal error of the 2015 report
       exact_comparison,     ///< difference to the exact displacement
       known_energy,         ///< energy error from the known energy
+      estimation,           ///< error estimators that need neither reference nor truth
+      goal_values,          ///< evaluating the goals
+      dual_solution,        ///< solving for what the error does to a goal
       marking,              ///< choosing the tetrahedra to refine
       sizing,               ///< the size field of the next mesh
       tetgen_refinement,    ///< refining from cycle to cycle
+      body_remeshing,       ///< meshing the body anew, so that elements can grow
+      boundary_projection,  ///< moving new points to the curved boundary
       uniform_refinement,   ///< cutting every tetrahedron into 8
       stress_recovery,      ///< stresses for output
       vtu_output,
-      tables
+      tables,
+      plots,            ///< SVG by gnuplot
+      size_field_output ///< the sizes that the run ends with
     };
 
     struct Stage
@@ -68,7 +76,7 @@ namespace tetradapt::scene
     bool
     uses_reference() const
     {
-      return needs(reference_solution) || needs(reference_file);
+      return needs(reference_solution) || needs(hexahedral_reference) || needs(reference_file);
     }
 
     /** All stages in the order of StageId; a temporary plan gives its list away. */
@@ -102,6 +110,8 @@ namespace tetradapt::scene
     add_reference_stages(const Scene &scene);
     void
     add_error_stages(const Scene &scene);
+    void
+    add_estimation_stages(const Scene &scene);
     void
     add_adaptivity_stages(const Scene &scene);
     void

@@ -2,9 +2,12 @@
 #ifndef tetradapt_scene_scene_h
 #define tetradapt_scene_scene_h
 
+#include "tetradapt/scene/error_estimator.h"
+#include "tetradapt/scene/goal_parameters.h"
 #include "tetradapt/scene/mesh_parameters.h"
 #include "tetradapt/scene/model_parameters.h"
 #include "tetradapt/scene/study_parameters.h"
+#include "tetradapt/scene/variation_parameters.h"
 
 namespace tetradapt::scene
 {
@@ -27,8 +30,12 @@ namespace tetradapt::scene
     SolverParameters                solver;
     ReferenceParameters             reference;
     TruthParameters                 truth;
+    std::vector<GoalParameters>     goals;
+    EstimationParameters            estimation;
     AdaptivityParameters            adaptivity;
     OutputParameters                output;
+    /** What a study varies; each run of it has none. */
+    std::vector<VariationParameters> variations;
 
     /** Where the user wrote what: from a full name such as "Loads/tip/Value" (or
      * of a section, "Loads/tip") to "file:line" or "command line". Parameters

@@ -2,6 +2,7 @@
 #ifndef tetradapt_scene_study_parameters_h
 #define tetradapt_scene_study_parameters_h
 
+#include "tetradapt/scene/error_estimator.h"
 #include "tetradapt/scene/mesh_parameters.h"
 
 #include <string>
@@ -26,6 +27,14 @@ namespace tetradapt::scene
     double       tolerance      = 1e-8; ///< of the residual, relative to the load
     unsigned int max_iterations = 2000;
     unsigned int direct_limit   = 2000; ///< unknowns
+    /** What ends conjugate gradients. */
+    enum class Stopping
+    {
+      residual,      ///< the tolerance
+      discretisation ///< the iterate's own error, estimated, is small beside that of the mesh
+    };
+    Stopping stopping           = Stopping::residual;
+    double   algebraic_fraction = 0.1; ///< discretisation: of the error of the mesh
 
     void
     declare(dealii::ParameterHandler &prm) const;
@@ -42,10 +51,11 @@ namespace tetradapt::scene
     {
       none,
       fine_mesh, ///< solved by this program on a fine mesh, and cached
+      hexahedra, ///< solved on an adaptive hexahedral mesh of a box-like body
       run        ///< a .vtu written by an earlier run
     };
     Type         type   = Type::none;
-    unsigned int degree = 2;
+    unsigned int degree = 2; ///< fine_mesh: 1, 2; hexahedra: 2, 3
     /** fine_mesh: how the mesh is made: refined by TetGen from the scene's
      * initial mesh with the bounds below, or bricks, or read from a file. */
     enum class MeshRoute
@@ -61,8 +71,12 @@ namespace tetradapt::scene
     double                      radius_edge_ratio = 1.414;
     double                      dihedral_angle    = 10.;
     std::string                 file; ///< file: volume mesh; run: .vtu of a run
-    bool                        cache = true;
-    std::string cache_directory; ///< default: output/cache below the working directory
+    /** hexahedra: refined until its own estimated relative energy error is below; 0:
+     * a tenth of Adaptivity/Tolerance, or of 0.01 if there is none. */
+    double        tolerance = 0.;
+    unsigned long max_dofs  = 2000000; ///< hexahedra: no larger system
+    bool          cache     = true;
+    std::string   cache_directory; ///< default: output/cache below the working directory
 
     void
     declare(dealii::ParameterHandler &prm) const;
@@ -82,12 +96,7 @@ namespace tetradapt::scene
       adaptive
     };
     /** Which indicator drives the refinement. */
-    enum class Driver
-    {
-      energy, ///< energy norm of the difference to the reference
-      ren,    ///< the 2015 report's relative nodal error, summed over nodes
-      exact   ///< energy norm of the true error (needs an exact displacement)
-    };
+    using Driver = ErrorEstimator;
     enum class Marking
     {
       maximum,        ///< eta_K >= lambda max eta
@@ -117,14 +126,21 @@ namespace tetradapt::scene
     double min_size  = 0.;  ///< smallest edge length; 0: none
     double max_size  = 0.;  ///< largest edge length; 0: none
     double gradation = 0.5; ///< h(x) <= h(y) + g |x-y|
+    /** A cycle whose energy says that the solution is worse is not accepted: the mesh
+     * before is refined more strongly, then uniformly. */
+    bool safeguard = true;
+    /** Elements may grow: a new mesh of the body with the size field as background,
+     * instead of refining the old one. */
+    bool coarsening = false;
     /** Stop when the relative energy error (estimated, or true where known) is
      * below; 0: no such stop. */
-    double        tolerance     = 0.;
-    double        ren_tolerance = 0.;      ///< the same for the mean REN
-    unsigned int  max_cycles    = 5;       ///< uniform, adaptive; the first mesh counts
-    unsigned long max_tets      = 1000000; ///< 0: no limit
-    unsigned long max_dofs      = 0;
-    double        max_seconds   = 0.;
+    double        tolerance      = 0.;
+    double        ren_tolerance  = 0.;      ///< the same for the mean REN
+    double        goal_tolerance = 0.;      ///< relative error of Estimation/Goal; 0: no such stop
+    unsigned int  max_cycles     = 5;       ///< uniform, adaptive; the first mesh counts
+    unsigned long max_tets       = 1000000; ///< 0: no limit
+    unsigned long max_dofs       = 0;
+    double        max_seconds    = 0.;
 
     void
     declare(dealii::ParameterHandler &prm) const;
@@ -136,10 +152,12 @@ namespace tetradapt::scene
 
   struct OutputParameters
   {
-    std::string directory;     ///< empty: output/<scene's name>
-    bool        tables = true; ///< convergence.csv, convergence.txt
-    bool        vtu    = true; ///< cycle_NNN.vtu and the .pvd
-    bool        stress = true; ///< stress and von Mises in the .vtu
+    std::string directory;          ///< empty: output/<scene's name>
+    bool        tables     = true;  ///< convergence.csv, convergence.txt
+    bool        vtu        = true;  ///< cycle_NNN.vtu and the .pvd
+    bool        stress     = true;  ///< stress and von Mises in the .vtu
+    bool        plots      = false; ///< SVG by gnuplot
+    bool        size_field = false; ///< size_field.vtu, from which another scene can start
 
     void
     declare(dealii::ParameterHandler &prm) const;

@@ -2,6 +2,7 @@
 #ifndef tetradapt_scene_words_h
 #define tetradapt_scene_words_h
 
+#include "tetradapt/scene/goal_parameters.h"
 #include "tetradapt/scene/mesh_parameters.h"
 #include "tetradapt/scene/model_parameters.h"
 #include "tetradapt/scene/study_parameters.h"
@@ -19,12 +20,15 @@ namespace tetradapt::scene
 
   /** All words of the argument's type; its value does not matter. */
   const Words<MeshSource>                     &words(MeshSource);
+  const Words<GoalType>                       &words(GoalType);
+  const Words<ErrorEstimator>                 &words(ErrorEstimator);
+  const Words<MeshParameters::Projection>     &words(MeshParameters::Projection);
+  const Words<SolverParameters::Stopping>     &words(SolverParameters::Stopping);
   const Words<LoadType>                       &words(LoadType);
   const Words<SolverParameters::Type>         &words(SolverParameters::Type);
   const Words<ReferenceParameters::Type>      &words(ReferenceParameters::Type);
   const Words<ReferenceParameters::MeshRoute> &words(ReferenceParameters::MeshRoute);
   const Words<AdaptivityParameters::Strategy> &words(AdaptivityParameters::Strategy);
-  const Words<AdaptivityParameters::Driver>   &words(AdaptivityParameters::Driver);
   const Words<AdaptivityParameters::Marking>  &words(AdaptivityParameters::Marking);
   const Words<AdaptivityParameters::Route>    &words(AdaptivityParameters::Route);
 
