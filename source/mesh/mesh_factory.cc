@@ -4,6 +4,7 @@
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/geometry/remeshing.h"
 #include "tetradapt/geometry/surface_io.h"
+#include "tetradapt/mesh/blocks.h"
 #include "tetradapt/mesh/bricks.h"
 #include "tetradapt/mesh/plc.h"
 #include "tetradapt/mesh/selection.h"
@@ -80,10 +81,14 @@ namespace tetradapt::mesh
                         parameters.upper_corner,
                         entry(parameters.cells, number));
         case scene::MeshSource::box:
+        case scene::MeshSource::blocks:
           {
             TetgenReport  report;
             const TetMesh mesh
-              = tetgen.mesh(box_complex(parameters.lower_corner, parameters.upper_corner),
+              = tetgen.mesh(parameters.source == scene::MeshSource::box
+                              ? box_complex(parameters.lower_corner, parameters.upper_corner)
+                              : blocks_complex(BlockGrid(parameters.blocks),
+                                               parameters.block_regions),
                             sizing,
                             &report);
             warn_of_unmet_wishes(report, log);

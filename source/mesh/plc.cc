@@ -59,21 +59,29 @@ namespace tetradapt::mesh
                               (i & 2) != 0 ? upper[1] : lower[1],
                               (i & 4) != 0 ? upper[2] : lower[2]);
     // Counter-clockwise seen from outside.
-    plc.facets = {{{0, 4, 6, 2}, 0},
-                  {{1, 3, 7, 5}, 1},
-                  {{0, 1, 5, 4}, 2},
-                  {{2, 6, 7, 3}, 3},
-                  {{0, 2, 3, 1}, 4},
-                  {{4, 5, 7, 6}, 5}};
-    int id     = 0;
+    plc.facets  = {{{0, 4, 6, 2}, 0},
+                   {{1, 3, 7, 5}, 1},
+                   {{0, 1, 5, 4}, 2},
+                   {{2, 6, 7, 3}, 3},
+                   {{0, 2, 3, 1}, 4},
+                   {{4, 5, 7, 6}, 5}};
+    plc.patches = box_patches();
+    return plc;
+  }
+
+  std::vector<Patch>
+  box_patches()
+  {
+    std::vector<Patch> patches;
+    int                id = 0;
     for (const char *name : {"x-min", "x-max", "y-min", "y-max", "z-min", "z-max"})
       {
         Patch patch;
         patch.boundary_id = ++id;
         patch.name        = name;
-        plc.patches.push_back(patch);
+        patches.push_back(patch);
       }
-    return plc;
+    return patches;
   }
 
   PiecewiseLinearComplex
@@ -110,7 +118,7 @@ namespace tetradapt::mesh
     geometry::SurfaceMesh surface;
     surface.points = plc.points;
     for (const auto &facet : plc.facets)
-      for (std::size_t i = 2; i < facet.vertices.size(); ++i)
+      for (std::size_t i = 2; facet.patch != plc.inner && i < facet.vertices.size(); ++i)
         {
           surface.triangles.push_back(
             {{facet.vertices[0], facet.vertices[i - 1], facet.vertices[i]}});

@@ -73,11 +73,15 @@ namespace tetradapt::mesh
     }
 
     /** TetGen crashes on a region's point that lies outside, and deals the cells of
-     * a part with two points out at random. */
+     * a part with two points out at random. Where inner facets divide parts, it is
+     * up to who made them to give one point each. */
     void
     check_seeds(const geometry::CheckedSurface &surface, const PiecewiseLinearComplex &plc)
     {
-      if (!plc.regions.empty() && plc.regions.size() != surface.n_components)
+      const bool divided = std::any_of(plc.facets.begin(), plc.facets.end(), [](const auto &facet) {
+        return facet.patch == PiecewiseLinearComplex::inner;
+      });
+      if (!divided && !plc.regions.empty() && plc.regions.size() != surface.n_components)
         throw InputError(text("There are ",
                               plc.regions.size(),
                               " regions for the ",

@@ -194,7 +194,9 @@ namespace tetradapt::mesh
         request.facet_vertices.insert(request.facet_vertices.end(),
                                       facet.vertices.begin(),
                                       facet.vertices.end());
-        request.facet_markers.push_back(facet.patch + 1);
+        // Inner facets get the marker one past the last patch's, as when refining.
+        request.facet_markers.push_back(
+          (facet.patch == plc.inner ? plc.patches.size() : facet.patch) + 1);
       }
     request.facet_offsets.push_back(request.facet_vertices.size());
     for (const auto &region : plc.regions)

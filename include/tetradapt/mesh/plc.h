@@ -5,19 +5,24 @@
 #include "tetradapt/geometry/surface_mesh.h"
 #include "tetradapt/mesh/tet_mesh.h"
 
+#include <deal.II/base/types.h>
+
 namespace tetradapt::mesh
 {
   /**
-   * What TetGen makes a volume mesh from: a closed boundary of flat facets, and
-   * a point inside every region that shall have an id.
+   * What TetGen makes a volume mesh from: a closed boundary of flat facets, facets
+   * between two regions, and a point inside every region that shall have an id.
    */
   struct PiecewiseLinearComplex
   {
+    /** The "patch" of a facet between two regions. */
+    static constexpr unsigned int inner = dealii::numbers::invalid_unsigned_int;
+
     /** A flat convex polygon. */
     struct Facet
     {
       std::vector<unsigned int> vertices;  ///< point numbers in cyclic order
-      unsigned int              patch = 0; ///< index into patches
+      unsigned int              patch = 0; ///< index into patches, or inner
     };
 
     /** A part of the volume and its id. */
@@ -57,7 +62,13 @@ namespace tetradapt::mesh
   PiecewiseLinearComplex
   surface_complex(const geometry::SurfaceMesh &surface, const std::string &name);
 
-  /** The facets cut into triangles, each with its facet's patch as id. */
+  /** The six sides of a box as patches: boundary ids 1 to 6, named x-min, x-max,
+   * y-min, y-max, z-min, z-max. */
+  std::vector<Patch>
+  box_patches();
+
+  /** The facets of the boundary cut into triangles, each with its facet's patch as
+   * id. Inner facets are left out. */
   geometry::SurfaceMesh
   triangulate(const PiecewiseLinearComplex &plc);
 } // namespace tetradapt::mesh
