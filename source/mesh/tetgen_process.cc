@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/mesh/tetgen_process.h"
 
+#include "tetradapt/core/child_process.h"
 #include "tetradapt/core/exceptions.h"
-#include "tetradapt/mesh/tetgen_child.h"
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -210,7 +210,8 @@ namespace tetradapt::mesh
     header.payload_size = writer.bytes.size() - sizeof(header);
     std::memcpy(writer.bytes.data(), &header, sizeof(header));
 
-    const ChildResult result = run_child(worker, writer.bytes, limits.time);
+    const core::ChildResult result
+      = core::run_child({"tetradapt-tetgen", worker, {}}, writer.bytes, limits.time);
     if (result.timed_out)
       fail_time(what, limits);
 

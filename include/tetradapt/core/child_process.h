@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#ifndef tetradapt_mesh_tetgen_child_h
-#define tetradapt_mesh_tetgen_child_h
+#ifndef tetradapt_core_child_process_h
+#define tetradapt_core_child_process_h
 
 #include <string>
+#include <vector>
 
-namespace tetradapt::mesh
+namespace tetradapt::core
 {
   /** How a child process ended. */
   struct ChildResult
@@ -16,8 +17,16 @@ namespace tetradapt::mesh
     int status = -1;
   };
 
+  /** What to run. */
+  struct ChildProgram
+  {
+    std::string              name; ///< for messages, and what the program sees as its name
+    std::string              path;
+    std::vector<std::string> arguments;
+  };
+
   /**
-   * Runs @p program without arguments, sends it @p input on its standard input
+   * Runs @p program, sends it @p input on its standard input
    * and collects what it writes until it closes both output streams; kills it
    * after @p time_limit seconds of wall time.
    *
@@ -28,7 +37,7 @@ namespace tetradapt::mesh
    * @throws NumericalError if the child cannot be started.
    */
   ChildResult
-  run_child(const std::string &program, const std::string &input, double time_limit);
-} // namespace tetradapt::mesh
+  run_child(const ChildProgram &program, const std::string &input, double time_limit);
+} // namespace tetradapt::core
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "tetradapt/mesh/tetgen_child.h"
+#include "tetradapt/core/child_process.h"
 
 #include "tetradapt/core/exceptions.h"
 
@@ -15,21 +15,20 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
-#include <vector>
 
 extern char **environ;
 
-namespace tetradapt::mesh
+namespace tetradapt::core
 {
   namespace
   {
-    using core::NumericalError;
     using Clock = std::chrono::steady_clock;
 
     [[noreturn]] void
     fail_to_start(const std::string &what, int error)
     {
-      throw NumericalError("TetGen cannot be started: " + what + ": " + std::strerror(error) + '.');
+      throw NumericalError("A program cannot be started: " + what + ": " + std::strerror(error)
+                           + '.');
     }
 
     /** Owns a file descriptor. */
@@ -82,7 +81,7 @@ namespace tetradapt::mesh
     class Child
     {
     public:
-      Child(const std::string &program, int channel, int errors)
+      Child(const ChildProgram &program, int channel, int errors)
       {
         posix_spawn_file_actions_t actions;
         posix_spawnattr_t          attributes;
@@ -102,16 +101,20 @@ namespace tetradapt::mesh
         posix_spawnattr_setsigdefault(&attributes, &all);
         posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
 
-        std::string name        = "tetradapt-tetgen";
-        char       *arguments[] = {name.data(), nullptr};
-        const int   error
-          = posix_spawn(&pid, program.c_str(), &actions, &attributes, arguments, environ);
+        std::vector<std::string> texts{program.name};
+        texts.insert(texts.end(), program.arguments.begin(), program.arguments.end());
+        std::vector<char *> arguments;
+        for (std::string &text : texts)
+          arguments.push_back(text.data());
+        arguments.push_back(nullptr);
+        const int error = posix_spawn(
+          &pid, program.path.c_str(), &actions, &attributes, arguments.data(), environ);
         posix_spawn_file_actions_destroy(&actions);
         posix_spawnattr_destroy(&attributes);
         if (error != 0)
           {
             pid = -1;
-            fail_to_start(program, error);
+            fail_to_start(program.name + " (" + program.path + ")", error);
           }
       }
       Child(const Child &) = delete;
@@ -235,7 +238,7 @@ namespace tetradapt::mesh
   } // namespace
 
   ChildResult
-  run_child(const std::string &program, const std::string &input, double time_limit)
+  run_child(const ChildProgram &program, const std::string &input, double time_limit)
   {
     const auto deadline
       = Clock::now()
@@ -243,11 +246,11 @@ namespace tetradapt::mesh
     Descriptor channel, child_channel, errors, child_errors;
     int        pair[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) != 0)
-      fail_to_start("no socket is left", errno);
+      fail_to_start(program.name + ", no socket is left", errno);
     channel.take(pair[0]);
     child_channel.take(pair[1]);
     if (pipe2(pair, O_CLOEXEC) != 0)
-      fail_to_start("no pipe is left", errno);
+      fail_to_start(program.name + ", no pipe is left", errno);
     errors.take(pair[0]);
     child_errors.take(pair[1]);
 
@@ -261,4 +264,4 @@ namespace tetradapt::mesh
     result.status = child.wait();
     return result;
   }
-} // namespace tetradapt::mesh
+} // namespace tetradapt::core
