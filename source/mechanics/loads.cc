@@ -40,6 +40,16 @@ namespace tetradapt::mechanics
       std::vector<std::array<double, 6>> values;
     };
 
+    bool
+    carries(const mesh::TetMesh         &mesh,
+            const mesh::BoundaryFace    &face,
+            const scene::LoadParameters &load)
+    {
+      const auto &selections = mesh.patches[face.patch].selections;
+      return std::find(selections.begin(), selections.end(), "Loads/" + load.name)
+             != selections.end();
+    }
+
     void
     add_face_load(const scene::LoadParameters                    &load,
                   const mesh::TetMesh                            &mesh,
@@ -54,9 +64,7 @@ namespace tetradapt::mechanics
       const core::VectorExpression value(texts, what);
       for (unsigned int f = 0; f < mesh.faces.size(); ++f)
         {
-          const auto &selections = mesh.patches[mesh.faces[f].patch].selections;
-          if (std::find(selections.begin(), selections.end(), "Loads/" + load.name)
-              == selections.end())
+          if (!carries(mesh, mesh.faces[f], load))
             continue;
           const auto        &v    = mesh.faces[f].vertices;
           const Tensor<1, 3> area = mesh::face_area_vector(mesh, mesh.faces[f]); // outward
@@ -74,6 +82,23 @@ namespace tetradapt::mechanics
                 forces[face_nodes[f][i]] += shapes.values[q][i] * force;
             }
         }
+    }
+
+    /** The force at every point of the mesh that a selected face has, once each
+     * however many of its faces are selected. Middles of edges are no points of the
+     * mesh, so that both degrees get the same load. */
+    void
+    add_node_load(const scene::LoadParameters &load, const mesh::TetMesh &mesh, Forces &forces)
+    {
+      const core::VectorExpression value(load.value, "Loads/" + load.name + "/Value");
+      std::vector<bool>            loaded(mesh.n_points(), false);
+      for (const auto &face : mesh.faces)
+        if (carries(mesh, face, load))
+          for (const unsigned int point : face.vertices)
+            loaded[point] = true;
+      for (unsigned int point = 0; point < mesh.n_points(); ++point)
+        if (loaded[point])
+          forces[point] += value(mesh.points[point]);
     }
 
     /** Quadrature points of a cell: positions, weights times volume. */
@@ -182,6 +207,9 @@ namespace tetradapt::mechanics
           if (face_nodes.empty())
             face_nodes = boundary_face_nodes(mesh, space.edge_table());
           add_face_load(load, mesh, face_shapes, face_nodes, forces);
+          break;
+        case scene::LoadType::nodal_force:
+          add_node_load(load, mesh, forces);
           break;
         case scene::LoadType::body_force:
         case scene::LoadType::gravity:

@@ -112,6 +112,31 @@ namespace
     report("its moment", water.moment(), Tensor<1, 3>({1., -2., 0.}), 2.);
   }
 
+  /** The side x = 2 of 4 x 3 x 2 bricks has 4 x 3 points, the side z = 1 has 5 x 4, and
+   * 4 are on both: each gets the force once, and middles of edges none. */
+  void
+  on_points(const unsigned int degree)
+  {
+    const auto side
+      = loaded(load("n", LoadType::nodal_force, "x > 2-1e-9", {{"1", "-2", "3"}}), degree);
+    report("nodal forces", side.sum(), Tensor<1, 3>({12., -24., 36.}), 36.);
+    const auto two
+      = loaded(load("n", LoadType::nodal_force, "x > 2-1e-9 || z > 1-1e-9", {{"1", "0", "2+x*y"}}),
+               degree);
+    report("on two sides", Tensor<1, 3>({two.sum()[0], 0., 0.}), Tensor<1, 3>({28., 0., 0.}), 28.);
+    double difference = 0.;
+    for (unsigned int node = 0; node < two.forces.size(); ++node)
+      {
+        const auto   p     = two.field.node_position(node);
+        const bool   point = node < two.field.mesh().n_points();
+        const double force
+          = point && (p[0] > 2. - 1e-9 || p[2] > 1. - 1e-9) ? 2. + p[0] * p[1] : 0.;
+        difference = std::max(difference, std::abs(two.forces[node][2] - force));
+      }
+    if (first_rank)
+      check("  each of them", difference, 0., 1., 1e-13);
+  }
+
   void
   on_volumes(const unsigned int degree)
   {
@@ -182,6 +207,7 @@ main(int argc, char *argv[])
       if (first_rank)
         std::cout << "degree " << degree << '\n';
       on_faces(degree);
+      on_points(degree);
       on_volumes(degree);
       if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1)
         shares(degree);

@@ -15,6 +15,11 @@ namespace tetradapt::mechanics
    *
    * Faces are integrated with 7 points (degree 5), cells with 14 (degree 5 for
    * the rule in use); constants are integrated exactly.
+   *
+   * LoadType::nodal_force is no integral: its value acts at every point of the mesh on
+   * the chosen faces (with degree 2 at the vertices only). The total grows with the number
+   * of these points, so that another mesh is another problem, whose energies cannot be
+   * compared.
    */
   std::vector<dealii::Tensor<1, 3>>
   nodal_forces(const scene::Scene      &scene,
