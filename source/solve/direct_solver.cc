@@ -12,24 +12,49 @@
 
 namespace tetradapt::solve
 {
-  void
-  solve_directly(const mechanics::BlockMatrix       &matrix,
-                 const mechanics::DisplacementSpace &space,
-                 const Vector                       &right_hand_side,
-                 Vector                             &solution)
+  namespace
   {
-    const auto        point_matrix = to_point_matrix(matrix, space);
-    Epetra_Vector     x(point_matrix->RowMap()), b(point_matrix->RowMap());
-    const std::size_t n = right_hand_side.locally_owned_size();
-    std::copy(right_hand_side.begin(), right_hand_side.begin() + n, b.Values());
-
-    Epetra_LinearProblem                     problem(point_matrix.get(), &x, &b);
-    const std::unique_ptr<Amesos_BaseSolver> solver(Amesos().Create("Amesos_Klu", problem));
-    if (solver == nullptr || solver->SymbolicFactorization() != 0
-        || solver->NumericFactorization() != 0 || solver->Solve() != 0)
+    [[noreturn]] void
+    throw_singular()
+    {
       throw core::NumericalError(
         "The direct solver could not factorise the stiffness matrix: it is singular to rounding. "
         "Look for elements with almost no volume, or set Solver/Type = cg.");
-    std::copy(x.Values(), x.Values() + n, solution.begin());
+    }
+  } // namespace
+
+  struct DirectSolver::Factors
+  {
+    Factors(const mechanics::BlockMatrix &block_matrix, const mechanics::DisplacementSpace &space)
+      : matrix(to_point_matrix(block_matrix, space)), x(matrix->RowMap()), b(matrix->RowMap()),
+        problem(matrix.get(), &x, &b), solver(Amesos().Create("Amesos_Klu", problem))
+    {
+    }
+
+    std::unique_ptr<PointMatrix>       matrix;
+    Epetra_Vector                      x, b;
+    Epetra_LinearProblem               problem;
+    std::unique_ptr<Amesos_BaseSolver> solver;
+  };
+
+  DirectSolver::DirectSolver(const mechanics::BlockMatrix       &matrix,
+                             const mechanics::DisplacementSpace &space)
+    : factors(std::make_unique<Factors>(matrix, space))
+  {
+    if (factors->solver == nullptr || factors->solver->SymbolicFactorization() != 0
+        || factors->solver->NumericFactorization() != 0)
+      throw_singular();
+  }
+
+  DirectSolver::~DirectSolver() = default;
+
+  void
+  DirectSolver::solve(const mechanics::Vector &right_hand_side, mechanics::Vector &solution) const
+  {
+    const std::size_t n = right_hand_side.locally_owned_size();
+    std::copy(right_hand_side.begin(), right_hand_side.begin() + n, factors->b.Values());
+    if (factors->solver->Solve() != 0)
+      throw_singular();
+    std::copy(factors->x.Values(), factors->x.Values() + n, solution.begin());
   }
 } // namespace tetradapt::solve

@@ -2,10 +2,8 @@
 #include "tetradapt/solve/linear_solver.h"
 
 #include "tetradapt/core/exceptions.h"
-#include "tetradapt/solve/direct_solver.h"
-#include "tetradapt/solve/preconditioners.h"
 
-#include <deal.II/lac/solver_cg.h>
+#include <deal.II/base/mpi.h>
 
 #include <cmath>
 #include <sstream>
@@ -14,121 +12,113 @@ namespace tetradapt::solve
 {
   namespace
   {
-    /** Norm of the load that the free unknowns feel: what is left of the residual
-     * when only the prescribed displacements are applied. */
-    double
-    load_norm(const LinearModel &model, const mechanics::LinearSystem &system)
+    bool
+    is_direct(const scene::SolverParameters &parameters, unsigned long n_dofs)
     {
-      double sum = 0.;
-      for (unsigned int node = 0; node < model.space.n_owned_nodes(); ++node)
-        for (unsigned int c = 0; c < 3; ++c)
-          if (!model.prescribed.is_fixed(model.space.field_node(node), c))
-            sum += std::pow(system.right_hand_side.local_element(3 * node + c), 2);
-      return std::sqrt(dealii::Utilities::MPI::sum(sum, model.space.communicator()));
-    }
-
-    /** Preconditioner with what it refers to. */
-    struct PreconditionerSet
-    {
-      std::unique_ptr<mechanics::DisplacementSpace> coarse_space;
-      std::unique_ptr<Preconditioner>               preconditioner;
-      std::string                                   name;
-    };
-
-    PreconditionerSet
-    make_preconditioner(const LinearModel &model, const mechanics::LinearSystem &system)
-    {
-      PreconditionerSet set;
-      if (model.space.degree() == 1)
-        {
-          set.preconditioner = make_amg(system.matrix, model.space, model.prescribed);
-          set.name           = "AMG";
-        }
-      else
-        {
-          set.coarse_space
-            = std::make_unique<mechanics::DisplacementSpace>(model.partition, 1, nullptr);
-          const auto coarse
-            = mechanics::assemble(*set.coarse_space, model.materials, model.prescribed, nullptr);
-          set.preconditioner = make_p_multigrid(
-            system.matrix, model.space, coarse.matrix, *set.coarse_space, model.prescribed);
-          set.name = "p-multigrid on AMG";
-        }
-      return set;
-    }
-
-    unsigned int
-    iterate(const mechanics::LinearSystem &system,
-            const Preconditioner          &preconditioner,
-            double                         tolerance,
-            const scene::SolverParameters &parameters,
-            const core::Log               &log,
-            Vector                        &x)
-    {
-      dealii::SolverControl    control(parameters.max_iterations, tolerance, false, false);
-      dealii::SolverCG<Vector> cg(control);
-      cg.connect([&](unsigned int iteration, double residual, const Vector &) {
-        std::ostringstream text;
-        text << "conjugate gradients, iteration " << iteration << ", residual over tolerance "
-             << residual / tolerance;
-        log.progress(text.str());
-        return dealii::SolverControl::success;
-      });
-      try
-        {
-          cg.solve(system.matrix, x, system.right_hand_side, preconditioner);
-        }
-      catch (const dealii::SolverControl::NoConvergence &failure)
-        {
-          std::ostringstream message;
-          message << "Conjugate gradients did not converge: after " << failure.last_step
-                  << " iterations the residual is " << failure.last_residual / tolerance
-                  << " times the allowed one. Look for materials of very different stiffness, a "
-                     "Poisson ratio close to 0.5 or very flat elements; or raise Solver/Maximum "
-                     "iterations, or set Solver/Type = direct.";
-          throw core::NumericalError(message.str());
-        }
-      return control.last_step();
+      using Type = scene::SolverParameters::Type;
+      return parameters.type == Type::direct
+             || (parameters.type == Type::automatic && n_dofs <= parameters.direct_limit);
     }
   } // namespace
 
-  LinearResult
-  solve_linear(const LinearModel             &model,
-               const mechanics::LinearSystem &system,
-               const scene::SolverParameters &parameters,
-               const core::Log               &log,
-               Vector                        &x)
+  LinearSolver::LinearSolver(const LinearModel             &model,
+                             const mechanics::BlockMatrix  &matrix,
+                             const scene::SolverParameters &parameters,
+                             const core::Log               &log)
+    : space(model.space), prescribed(model.prescribed), matrix(matrix), parameters(parameters),
+      log(log)
   {
-    using Type = scene::SolverParameters::Type;
-    const bool direct
-      = parameters.type == Type::direct
-        || (parameters.type == Type::automatic && model.space.n_dofs() <= parameters.direct_limit);
-    if (direct)
+    if (is_direct(parameters, space.n_dofs()))
       {
         log.progress("factorising");
-        solve_directly(system.matrix, model.space, system.right_hand_side, x);
-        return {0, "direct (KLU)"};
+        direct      = std::make_unique<DirectSolver>(matrix, space);
+        description = "direct (KLU)";
+        return;
       }
     log.progress("building the preconditioner");
-    const double            norm = load_norm(model, system);
-    const PreconditionerSet set  = make_preconditioner(model, system);
-    if (!std::isfinite(norm))
-      throw core::NumericalError("The loads are not finite. Look at the values of the loads and at "
-                                 "the material constants.");
-    if (norm == 0.)
+    if (space.degree() == 1)
       {
-        // Nothing moves but what is prescribed, and that moves nothing else.
-        x = 0.;
-        for (unsigned int node = 0; node < model.space.n_owned_nodes(); ++node)
-          for (unsigned int c = 0; c < 3; ++c)
-            x.local_element(3 * node + c)
-              = model.prescribed.values[model.space.field_node(node)][c];
-        return {0, "nothing to solve: no load"};
+        preconditioner = make_amg(matrix, space, prescribed);
+        description    = "conjugate gradients, AMG";
+        return;
       }
-    LinearResult result;
-    result.iterations
-      = iterate(system, *set.preconditioner, parameters.tolerance * norm, parameters, log, x);
-    result.description = "conjugate gradients, " + set.name;
-    return result;
+    coarse_space = std::make_unique<mechanics::DisplacementSpace>(model.partition, 1, nullptr);
+    const auto coarse
+      = mechanics::assemble(*coarse_space, model.materials, model.prescribed, nullptr);
+    preconditioner
+      = make_p_multigrid(matrix, space, coarse.matrix, *coarse_space, model.prescribed);
+    description = "conjugate gradients, p-multigrid on AMG";
+  }
+
+  double
+  LinearSolver::load_norm(const Vector &right_hand_side) const
+  {
+    // What is left of the residual when only the prescribed displacements are applied.
+    double sum = 0.;
+    for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
+      for (unsigned int c = 0; c < 3; ++c)
+        if (!prescribed.is_fixed(space.field_node(node), c))
+          sum += std::pow(right_hand_side.local_element(3 * node + c), 2);
+    return std::sqrt(dealii::Utilities::MPI::sum(sum, space.communicator()));
+  }
+
+  LinearResult
+  LinearSolver::solve(const Vector      &right_hand_side,
+                      const LinearStop  &stop,
+                      const std::string &load,
+                      Vector            &x) const
+  {
+    if (direct != nullptr)
+      {
+        direct->solve(right_hand_side, x);
+        return {0, 0, 0., description};
+      }
+    const double norm = load_norm(right_hand_side);
+    if (!std::isfinite(norm))
+      throw core::NumericalError(load
+                                 + " are not finite. Look at their values and at the material "
+                                   "constants.");
+    if (norm > 0.)
+      return iterate(right_hand_side, stop, norm, x);
+    // Nothing moves but what is prescribed, and that moves nothing else.
+    for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
+      for (unsigned int c = 0; c < 3; ++c)
+        if (!prescribed.is_fixed(space.field_node(node), c))
+          x.local_element(3 * node + c) = 0.;
+    return {0, 0, 0., "nothing to solve: no load"};
+  }
+
+  LinearResult
+  LinearSolver::iterate(const Vector     &right_hand_side,
+                        const LinearStop &stop,
+                        double            norm,
+                        Vector           &x) const
+  {
+    IterationLimits limits;
+    limits.residual       = (stop.residual > 0. ? stop.residual : parameters.tolerance) * norm;
+    limits.error          = stop.algebraic_error;
+    limits.max_iterations = parameters.max_iterations;
+    const IterationResult result
+      = conjugate_gradients(matrix, *preconditioner, right_hand_side, limits, log, x);
+    if (!result.converged)
+      {
+        std::ostringstream message;
+        message << "Conjugate gradients did not converge: after " << result.iterations
+                << " iterations the residual is " << result.residual / limits.residual
+                << " times the allowed one. Look for materials of very different stiffness, a "
+                   "Poisson ratio close to 0.5 or very flat elements; or raise Solver/Maximum "
+                   "iterations, or set Solver/Type = direct.";
+        throw core::NumericalError(message.str());
+      }
+    return {result.iterations, result.iterations_to_residual, result.error, description};
+  }
+
+  void
+  LinearSolver::precondition(Vector &destination, const Vector &source) const
+  {
+    if (direct != nullptr)
+      direct->solve(source, destination);
+    else
+      preconditioner->vmult(destination, source);
   }
 } // namespace tetradapt::solve

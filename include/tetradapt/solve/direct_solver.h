@@ -4,18 +4,27 @@
 
 #include "tetradapt/mechanics/stiffness.h"
 
+#include <memory>
+
 namespace tetradapt::solve
 {
-  /**
-   * Solves matrix x = right-hand side by sparse factorisation (KLU of Trilinos'
-   * Amesos; on several ranks it works on the first). Collective.
-   * @throws core::NumericalError if the matrix is singular.
-   */
-  void
-  solve_directly(const mechanics::BlockMatrix       &matrix,
-                 const mechanics::DisplacementSpace &space,
-                 const mechanics::Vector            &right_hand_side,
-                 mechanics::Vector                  &solution);
+  /** A sparse factorisation (KLU of Trilinos' Amesos; on several ranks it works on the
+   * first), which solves for any number of right-hand sides. Copies the matrix. */
+  class DirectSolver
+  {
+  public:
+    /** Factorises. Collective. @throws core::NumericalError if @p matrix is singular. */
+    DirectSolver(const mechanics::BlockMatrix &matrix, const mechanics::DisplacementSpace &space);
+    ~DirectSolver();
+
+    /** Solves matrix solution = right-hand side. Collective. */
+    void
+    solve(const mechanics::Vector &right_hand_side, mechanics::Vector &solution) const;
+
+  private:
+    struct Factors;
+    std::unique_ptr<Factors> factors;
+  };
 } // namespace tetradapt::solve
 
 #endif

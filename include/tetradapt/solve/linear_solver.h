@@ -5,11 +5,11 @@
 #include "tetradapt/core/log.h"
 #include "tetradapt/mechanics/stiffness.h"
 #include "tetradapt/scene/study_parameters.h"
+#include "tetradapt/solve/conjugate_gradients.h"
+#include "tetradapt/solve/direct_solver.h"
 
 namespace tetradapt::solve
 {
-  using Vector = mechanics::Vector;
-
   /** What a preconditioner may build coarser levels from. */
   struct LinearModel
   {
@@ -19,25 +19,72 @@ namespace tetradapt::solve
     const mechanics::PrescribedDisplacement &prescribed;
   };
 
+  /** When a solution is good enough. */
+  struct LinearStop
+  {
+    double residual        = 0.; ///< relative to the load; 0: the parameters' tolerance
+    double algebraic_error = 0.; ///< energy norm of the error; 0: the residual decides
+  };
+
   struct LinearResult
   {
-    unsigned int iterations = 0; ///< 0: direct
-    std::string  description;    ///< solver and preconditioner, for the log
+    unsigned int iterations             = 0;  ///< 0: direct
+    unsigned int iterations_to_residual = 0;  ///< see IterationResult
+    double       algebraic_error        = 0.; ///< estimated; 0: unknown, or direct
+    std::string  description;                 ///< solver and preconditioner, for the log
   };
 
   /**
-   * Solves @p system, starting from @p x, which has the prescribed values. Chooses
-   * by parameters: direct below the limit, else conjugate gradients with AMG
-   * (degree 1) or p-multigrid on AMG (degree 2) until the residual is below the
-   * tolerance times the norm of the load. Collective.
-   * @throws core::NumericalError if it does not converge.
+   * Solves systems with one matrix. Chooses by parameters: a factorisation for few
+   * unknowns, else conjugate gradients with AMG (degree 1) or p-multigrid on AMG
+   * (degree 2). Factors or preconditioner are made once and serve every right-hand
+   * side.
    */
-  LinearResult
-  solve_linear(const LinearModel             &model,
-               const mechanics::LinearSystem &system,
-               const scene::SolverParameters &parameters,
-               const core::Log               &log,
-               Vector                        &x);
+  class LinearSolver
+  {
+  public:
+    /** Collective. Keeps references to all but @p model.partition. */
+    LinearSolver(const LinearModel             &model,
+                 const mechanics::BlockMatrix  &matrix,
+                 const scene::SolverParameters &parameters,
+                 const core::Log               &log);
+
+    /**
+     * Solves for @p x from @p x on, which has the prescribed values. Conjugate
+     * gradients end when the residual is below the tolerance times the norm of the
+     * load, which is the right-hand side at free unknowns; or, where an algebraic error
+     * is given, when that is reached (no residual tells when: that of a slender body's
+     * bending is larger than the load for errors of a percent). Collective.
+     * @param load is what to call the right-hand side in messages: "The loads".
+     * @throws core::NumericalError if it does not converge.
+     */
+    LinearResult
+    solve(const Vector      &right_hand_side,
+          const LinearStop  &stop,
+          const std::string &load,
+          Vector            &x) const;
+
+    /** destination = an approximate inverse of the matrix times source, symmetric and
+     * positive; the inverse itself if it was factorised. Collective. */
+    void
+    precondition(Vector &destination, const Vector &source) const;
+
+  private:
+    double
+    load_norm(const Vector &right_hand_side) const;
+    LinearResult
+    iterate(const Vector &right_hand_side, const LinearStop &stop, double norm, Vector &x) const;
+
+    const mechanics::DisplacementSpace           &space;
+    const mechanics::PrescribedDisplacement      &prescribed;
+    const mechanics::BlockMatrix                 &matrix;
+    const scene::SolverParameters                &parameters;
+    const core::Log                              &log;
+    std::string                                   description;
+    std::unique_ptr<mechanics::DisplacementSpace> coarse_space; ///< of p-multigrid
+    std::unique_ptr<Preconditioner>               preconditioner;
+    std::unique_ptr<DirectSolver>                 direct;
+  };
 } // namespace tetradapt::solve
 
 #endif

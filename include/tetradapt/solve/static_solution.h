@@ -6,6 +6,7 @@
 #include "tetradapt/mechanics/material_map.h"
 #include "tetradapt/mesh/nodal_field.h"
 #include "tetradapt/scene/scene.h"
+#include "tetradapt/solve/static_system.h"
 
 #include <mpi.h>
 
@@ -16,7 +17,11 @@ namespace tetradapt::solve
   {
     std::shared_ptr<mesh::NodalField> displacement;
     unsigned long                     n_dofs = 0; ///< 3 x nodes, supports included
-    /** a(u_h,u_h) = int eps:C:eps, twice the strain energy without thermal strain. */
+    /** a(u_h,u_h) = int eps:C:eps, twice the strain energy without thermal strain. Where
+     * all prescribed displacements are zero it is computed as 2 F(u_h) - a(u_h,u_h): the
+     * same for an exactly solved system, and with an algebraic error delta (energy
+     * norm) less by delta^2, while F and a alone err by terms of first order. So E minus
+     * it is |||u - u_h|||^2 for any iterate u_h, and it rises on a better mesh only. */
     double energy = 0.;
     /** Stored energy 1/2 int (eps - eps_th):C:(eps - eps_th). */
     double strain_energy = 0.;
@@ -24,6 +29,13 @@ namespace tetradapt::solve
     double       external_work = 0.;
     unsigned int iterations    = 0; ///< 0: direct solver
     std::string  solver;            ///< what solved it, for the log
+    /** Energy norm of what conjugate gradients left, as they estimated it; 0: direct. */
+    double algebraic_error = 0.;
+    /** Iterations that the residual's tolerance alone would have taken, foretold from
+     * the rate of convergence; equal to iterations where that ended it. */
+    unsigned int iterations_to_tolerance = 0;
+    /** The system, where the caller keeps it for dual problems; may be null. */
+    std::shared_ptr<const StaticSystem> system;
   };
 
   /**

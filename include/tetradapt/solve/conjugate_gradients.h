@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_solve_conjugate_gradients_h
+#define tetradapt_solve_conjugate_gradients_h
+
+#include "tetradapt/core/log.h"
+#include "tetradapt/mechanics/block_matrix.h"
+#include "tetradapt/solve/preconditioners.h"
+
+#include <optional>
+#include <vector>
+
+namespace tetradapt::solve
+{
+  /**
+   * Estimates the error that conjugate gradients leave, in the energy norm, from what
+   * their steps gain.
+   *
+   * Step k takes alpha_k (r_k, z_k) off the square of the error (Hestenes and Stiefel,
+   * J. Res. NBS 49, 1952), so the square of the error is the sum of all gains to come
+   * (Strakos and Tichy, ETNA 13, 2002). They wait some steps to see most of that sum;
+   * here the coming gains are continued as a geometric series with the rate of the last
+   * ones, so that no step is made for the estimate alone.
+   */
+  class EnergyErrorEstimate
+  {
+  public:
+    /** Adds the gain of one step. */
+    void
+    add(double gain)
+    {
+      gains.push_back(gain);
+    }
+
+    /** Square of the energy norm of the present error; empty while too few steps were
+     * made, or if the gains do not fall yet. */
+    std::optional<double>
+    squared_error() const;
+
+    /** Factor by which a step reduces the square of the error: the slower of the mean
+     * over all steps and that of the last few, at least 0.2; empty where there is no estimate. */
+    std::optional<double>
+    rate() const;
+
+  private:
+    /** How many gains are summed: single ones rise and fall from step to step. */
+    std::size_t
+    width() const;
+    double
+    sum(std::size_t begin) const;
+
+    std::vector<double> gains;
+  };
+
+  /** When conjugate gradients end: when the residual or the error is reached. */
+  struct IterationLimits
+  {
+    double       residual       = 0.; ///< l2 norm
+    double       error          = 0.; ///< energy norm, estimated; 0: only the residual counts
+    unsigned int max_iterations = 0;
+  };
+
+  struct IterationResult
+  {
+    bool         converged  = false;
+    unsigned int iterations = 0;
+    double       residual   = 0.; ///< l2 norm
+    double       error      = 0.; ///< estimated energy norm; 0: unknown
+    /** How many iterations the residual needs in all: those made, where it was
+     * reached, else continued with the mean rate of the error so far. */
+    unsigned int iterations_to_residual = 0;
+  };
+
+  /** Preconditioned conjugate gradients for matrix x = right-hand side from @p x on.
+   * Collective. */
+  IterationResult
+  conjugate_gradients(const mechanics::BlockMatrix &matrix,
+                      const Preconditioner         &preconditioner,
+                      const Vector                 &right_hand_side,
+                      const IterationLimits        &limits,
+                      const core::Log              &log,
+                      Vector                       &x);
+} // namespace tetradapt::solve
+
+#endif

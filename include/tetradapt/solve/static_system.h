@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_solve_static_system_h
+#define tetradapt_solve_static_system_h
+
+#include "tetradapt/core/log.h"
+#include "tetradapt/mechanics/material_map.h"
+#include "tetradapt/mechanics/supports.h"
+#include "tetradapt/mesh/nodal_field.h"
+#include "tetradapt/scene/scene.h"
+
+#include <mpi.h>
+
+#include <memory>
+
+namespace tetradapt::solve
+{
+  struct StaticSolution;
+
+  /**
+   * The linear system of a static problem on one mesh, with what solves it: numbering,
+   * matrix, supports, factorisation or preconditioner. Made once a mesh, used for the
+   * displacement and again for dual problems, which differ in their right-hand side
+   * only. Collective over the communicator.
+   */
+  class StaticSystem
+  {
+  public:
+    /** When conjugate gradients end. */
+    struct Stop
+    {
+      /** Residual relative to the load; the scene's Solver/Tolerance where 0. */
+      double residual = 0.;
+      /** Energy norm that the iterate's own error may have, estimated while
+       * iterating; 0: the residual alone decides. */
+      double algebraic_error = 0.;
+    };
+
+    /** Numbers, assembles, and prepares the solver. Keeps references to @p scene
+     * and @p materials, and shares the mesh. @throws as solve_static(). */
+    StaticSystem(const scene::Scene                  &scene,
+                 const mechanics::MaterialMap        &materials,
+                 std::shared_ptr<const mesh::TetMesh> mesh,
+                 unsigned int                         degree,
+                 MPI_Comm                             communicator,
+                 const core::Log                     &log);
+    ~StaticSystem();
+
+    /** The displacement under the scene's loads. @param start first iterate, or null. */
+    StaticSolution
+    solve(const mesh::NodalField *start, const Stop &stop) const;
+
+    /** The displacement under other nodal forces (one a node of the field, whole on
+     * every rank), zero at all supports; a dual solution. */
+    std::shared_ptr<mesh::NodalField>
+    solve_dual(const std::vector<dealii::Tensor<1, 3>> &forces, const Stop &stop) const;
+
+    /** One step of what solves it: @p displacement = an approximate inverse of the
+     * matrix times @p forces, symmetric and positive, zero at supports. Both have one
+     * entry a node and are whole on every rank. Preconditions larger spaces. */
+    void
+    precondition(const std::vector<dealii::Tensor<1, 3>> &forces,
+                 std::vector<dealii::Tensor<1, 3>>       &displacement) const;
+
+    /** What the supports prescribe at the nodes. */
+    const mechanics::PrescribedDisplacement &
+    prescribed() const;
+
+  private:
+    struct Data;
+    std::unique_ptr<Data> data;
+  };
+} // namespace tetradapt::solve
+
+#endif

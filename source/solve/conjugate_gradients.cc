@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/solve/conjugate_gradients.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+
+namespace tetradapt::solve
+{
+  std::size_t
+  EnergyErrorEstimate::width() const
+  {
+    return gains.size() >= 6 ? 3 : 2;
+  }
+
+  double
+  EnergyErrorEstimate::sum(std::size_t begin) const
+  {
+    return std::accumulate(gains.begin() + begin, gains.begin() + begin + width(), 0.);
+  }
+
+  std::optional<double>
+  EnergyErrorEstimate::rate() const
+  {
+    const std::size_t n = gains.size(), w = width();
+    if (n < 2 * w)
+      return std::nullopt;
+    const double late = sum(n - w);
+    // Where convergence pauses, the last steps alone look too good before or after.
+    const double recent = std::pow(late / sum(n - 2 * w), 1. / w);
+    const double mean   = std::pow(late / sum(0), 1. / (n - w));
+    // First steps gain more than those to come: no method here keeps a rate below 0.2.
+    const double rate = std::max({recent, mean, 0.2});
+    return rate < 1. ? std::optional<double>(rate) : std::nullopt;
+  }
+
+  std::optional<double>
+  EnergyErrorEstimate::squared_error() const
+  {
+    const auto factor = rate();
+    if (!factor)
+      return std::nullopt;
+    const double late = std::pow(*factor, width());
+    return sum(gains.size() - width()) * late / (1. - late);
+  }
+
+  namespace
+  {
+    bool
+    is_done(const IterationLimits       &limits,
+            double                       residual,
+            const std::optional<double> &squared_error)
+    {
+      return residual <= limits.residual
+             || (squared_error && *squared_error <= limits.error * limits.error);
+    }
+
+    unsigned int
+    foretell(const IterationResult     &result,
+             const IterationLimits     &limits,
+             const EnergyErrorEstimate &estimate)
+    {
+      const auto rate = estimate.rate();
+      if (result.residual <= limits.residual || !rate)
+        return result.iterations;
+      // The residual falls like the energy norm of the error.
+      const double more = 2. * std::log(limits.residual / result.residual) / std::log(*rate);
+      return result.iterations + static_cast<unsigned int>(std::min(1e6, std::ceil(more)));
+    }
+  } // namespace
+
+  IterationResult
+  conjugate_gradients(const mechanics::BlockMatrix &matrix,
+                      const Preconditioner         &preconditioner,
+                      const Vector                 &right_hand_side,
+                      const IterationLimits        &limits,
+                      const core::Log              &log,
+                      Vector                       &x)
+  {
+    Vector residual(right_hand_side), preconditioned, direction, product;
+    for (Vector *vector : {&preconditioned, &direction, &product})
+      vector->reinit(right_hand_side, true);
+    if (!x.all_zero())
+      {
+        matrix.vmult(product, x);
+        residual -= product;
+      }
+
+    EnergyErrorEstimate estimate;
+    IterationResult     result;
+    result.residual  = residual.l2_norm();
+    result.converged = result.residual <= limits.residual;
+    double energy    = 0.; // (r, z)
+    while (!result.converged && result.iterations < limits.max_iterations
+           && std::isfinite(result.residual))
+      {
+        preconditioner.vmult(preconditioned, residual);
+        const double before = energy;
+        energy              = residual * preconditioned;
+        if (result.iterations == 0)
+          direction = preconditioned;
+        else
+          direction.sadd(energy / before, 1., preconditioned);
+        matrix.vmult(product, direction);
+        const double alpha = energy / (direction * product);
+        x.add(alpha, direction);
+        result.residual = std::sqrt(residual.add_and_dot(-alpha, product, residual));
+        ++result.iterations;
+        estimate.add(alpha * energy);
+        result.converged = is_done(limits, result.residual, estimate.squared_error());
+
+        std::ostringstream text;
+        text << "conjugate gradients, iteration " << result.iterations
+             << ", residual over tolerance " << result.residual / limits.residual;
+        log.progress(text.str());
+      }
+    result.error                  = std::sqrt(estimate.squared_error().value_or(0.));
+    result.iterations_to_residual = foretell(result, limits, estimate);
+    return result;
+  }
+} // namespace tetradapt::solve

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/solve/static_system.h"
+
+#include "tetradapt/mechanics/loads.h"
+#include "tetradapt/solve/energies.h"
+#include "tetradapt/solve/linear_solver.h"
+#include "tetradapt/solve/static_solution.h"
+
+#include <deal.II/base/mpi.h>
+
+namespace tetradapt::solve
+{
+  namespace
+  {
+    using mechanics::DisplacementSpace;
+    using NodalValues = std::vector<dealii::Tensor<1, 3>>;
+
+    std::shared_ptr<const mesh::EdgeTable>
+    edges_for(const mesh::TetMesh &mesh, unsigned int degree)
+    {
+      return degree == 2 ? std::make_shared<const mesh::EdgeTable>(mesh::build_edges(mesh))
+                         : nullptr;
+    }
+
+    double
+    work(const DisplacementSpace &space, const NodalValues &forces, const NodalValues &displacement)
+    {
+      double sum = 0.;
+      for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
+        sum += forces[space.field_node(node)] * displacement[space.field_node(node)];
+      return dealii::Utilities::MPI::sum(sum, space.communicator());
+    }
+  } // namespace
+
+  struct StaticSystem::Data
+  {
+    Data(const scene::Scene                  &scene,
+         const mechanics::MaterialMap        &materials,
+         std::shared_ptr<const mesh::TetMesh> mesh_pointer,
+         unsigned int                         degree,
+         MPI_Comm                             communicator,
+         const core::Log                     &caller_log)
+      : materials(materials), mesh(std::move(mesh_pointer)), degree(degree), log(caller_log),
+        edges(edges_for(*mesh, degree)),
+        prescribed(mechanics::prescribe(scene.supports, *mesh, edges.get()))
+    {
+      log.progress("numbering");
+      const mechanics::MeshPartition partition(*mesh, communicator);
+      space = std::make_unique<DisplacementSpace>(partition, degree, edges.get());
+      log.progress("assembling " + std::to_string(space->n_dofs()) + " unknowns");
+      forces = mechanics::nodal_forces(scene, materials, *space);
+      system = std::make_unique<mechanics::LinearSystem>(
+        mechanics::assemble(*space, materials, prescribed, &forces));
+      const LinearModel model{partition, *space, materials, prescribed};
+      solver = std::make_unique<LinearSolver>(model, system->matrix, scene.solver, log);
+    }
+
+    /** The unknowns with a value of @p free where they are free, if it is not null,
+     * and the prescribed ones times @p factor elsewhere. */
+    Vector
+    vector_of(const NodalValues *free, double factor) const
+    {
+      Vector x(space->vector_layout());
+      for (unsigned int node = 0; node < space->n_owned_nodes(); ++node)
+        {
+          const unsigned int field_node = space->field_node(node);
+          for (unsigned int c = 0; c < 3; ++c)
+            if (prescribed.is_fixed(field_node, c))
+              x.local_element(3 * node + c) = factor * prescribed.values[field_node][c];
+            else if (free != nullptr)
+              x.local_element(3 * node + c) = (*free)[field_node][c];
+        }
+      return x;
+    }
+
+    const mechanics::MaterialMap            &materials;
+    std::shared_ptr<const mesh::TetMesh>     mesh;
+    unsigned int                             degree;
+    core::Log                                log;
+    std::shared_ptr<const mesh::EdgeTable>   edges;
+    mechanics::PrescribedDisplacement        prescribed;
+    std::unique_ptr<DisplacementSpace>       space;
+    NodalValues                              forces; ///< of the loads, on the nodes owned
+    std::unique_ptr<mechanics::LinearSystem> system;
+    std::unique_ptr<LinearSolver>            solver;
+  };
+
+  StaticSystem::StaticSystem(const scene::Scene                  &scene,
+                             const mechanics::MaterialMap        &materials,
+                             std::shared_ptr<const mesh::TetMesh> mesh,
+                             unsigned int                         degree,
+                             MPI_Comm                             communicator,
+                             const core::Log                     &log)
+    : data(std::make_unique<Data>(scene, materials, std::move(mesh), degree, communicator, log))
+  {
+  }
+
+  StaticSystem::~StaticSystem() = default;
+
+  StaticSolution
+  StaticSystem::solve(const mesh::NodalField *start, const Stop &stop) const
+  {
+    const DisplacementSpace &space = *data->space;
+    StaticSolution           solution;
+    solution.displacement
+      = std::make_shared<mesh::NodalField>(data->mesh, data->degree, data->edges);
+    solution.n_dofs = space.n_dofs();
+    auto &values    = solution.displacement->values;
+
+    Vector     x        = data->vector_of(start == nullptr ? nullptr : &start->values, 1.);
+    const auto result   = data->solver->solve(data->system->right_hand_side,
+                                            {stop.residual, stop.algebraic_error},
+                                            "The loads",
+                                            x);
+    solution.iterations = result.iterations;
+    solution.iterations_to_tolerance = result.iterations_to_residual;
+    solution.algebraic_error         = result.algebraic_error;
+    solution.solver                  = result.description;
+    space.gather(x, values);
+
+    const Energies energies
+      = compute_energies(*solution.displacement, data->materials, space.communicator());
+    solution.external_work = work(space, data->forces, values);
+    solution.strain_energy = energies.stored;
+    solution.energy        = data->prescribed.is_homogeneous()
+                               ? 2. * solution.external_work - energies.energy
+                               : energies.energy;
+    return solution;
+  }
+
+  std::shared_ptr<mesh::NodalField>
+  StaticSystem::solve_dual(const NodalValues &forces, const Stop &stop) const
+  {
+    auto         field = std::make_shared<mesh::NodalField>(data->mesh, data->degree, data->edges);
+    Vector       x     = data->vector_of(nullptr, 0.);
+    const Vector b     = data->vector_of(&forces, 0.);
+    data->solver->solve(b, {stop.residual, stop.algebraic_error}, "The weights of the goal", x);
+    data->space->gather(x, field->values);
+    return field;
+  }
+
+  void
+  StaticSystem::precondition(const NodalValues &forces, NodalValues &displacement) const
+  {
+    Vector x(data->space->vector_layout());
+    data->solver->precondition(x, data->vector_of(&forces, 0.));
+    data->space->gather(x, displacement);
+  }
+
+  const mechanics::PrescribedDisplacement &
+  StaticSystem::prescribed() const
+  {
+    return data->prescribed;
+  }
+} // namespace tetradapt::solve
