@@ -5,7 +5,8 @@
 
 namespace tetradapt::compare
 {
-  RecoveryPatches::RecoveryPatches(const mesh::TetMesh &mesh) : of_cell(mesh.n_cells())
+  RecoveryPatches::RecoveryPatches(const mesh::TetMesh &mesh)
+    : cells(4 * mesh.cells.size()), of_cell(mesh.n_cells())
   {
     const unsigned int        n_points = mesh.n_points();
     std::vector<unsigned int> start(n_points + std::size_t(1), 0);
@@ -14,21 +15,28 @@ namespace tetradapt::compare
         ++start[v + 1];
     for (unsigned int v = 0; v < n_points; ++v)
       start[v + 1] += start[v];
-    cells.resize(4 * mesh.cells.size());
     auto next = start;
     for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
       for (const unsigned int v : mesh.cells[cell])
         cells[next[v]++] = cell;
 
+    vertex.reserve(n_points);
+    begin.reserve(n_points + std::size_t(1));
+    first_of_vertex.reserve(n_points + std::size_t(1));
     for (unsigned int v = 0; v < n_points; ++v)
       {
+        first_of_vertex.push_back(vertex.size());
         const auto first = cells.begin() + start[v], last = cells.begin() + start[v + 1];
-        std::sort(first, last, [&](const unsigned int a, const unsigned int b) {
-          return mesh.regions[a] != mesh.regions[b] ? mesh.regions[a] < mesh.regions[b] : a < b;
-        });
+        const auto other_region = [&](const unsigned int a, const unsigned int b) {
+          return mesh.regions[a] != mesh.regions[b];
+        };
+        if (std::adjacent_find(first, last, other_region) != last)
+          std::stable_sort(first, last, [&](const unsigned int a, const unsigned int b) {
+            return mesh.regions[a] < mesh.regions[b];
+          });
         for (auto it = first; it != last; ++it)
           {
-            if (it == first || mesh.regions[*it] != mesh.regions[*(it - 1)])
+            if (it == first || other_region(*it, *(it - 1)))
               {
                 vertex.push_back(v);
                 begin.push_back(it - cells.begin());
@@ -38,6 +46,7 @@ namespace tetradapt::compare
                 of_cell[*it][i] = vertex.size() - 1;
           }
       }
+    first_of_vertex.push_back(vertex.size());
     begin.push_back(cells.size());
   }
 
@@ -60,5 +69,21 @@ namespace tetradapt::compare
         std::sort(result.begin(), result.end());
         result.erase(std::unique(result.begin(), result.end()), result.end());
       }
+  }
+
+  unsigned int
+  RecoveryPatches::cell_of_face(const mesh::TetMesh &mesh, const unsigned int face) const
+  {
+    const auto &v = mesh.faces[face].vertices;
+    for (unsigned int k = begin[first_of_vertex[v[0]]]; k < begin[first_of_vertex[v[0] + 1]]; ++k)
+      {
+        const auto &cell = mesh.cells[cells[k]];
+        const auto  has  = [&](const unsigned int point) {
+          return cell[0] == point || cell[1] == point || cell[2] == point || cell[3] == point;
+        };
+        if (has(v[1]) && has(v[2]))
+          return cells[k];
+      }
+    return dealii::numbers::invalid_unsigned_int; // not in a finalized mesh
   }
 } // namespace tetradapt::compare

@@ -65,7 +65,7 @@ namespace tetradapt::compare
       reference.energy       = solution.energy;
       log.progress("reference: estimating its error");
       reference.estimated_error
-        = recovery_estimate(*reference.displacement, materials, communicator).global;
+        = recovery_estimate(*reference.displacement, materials, communicator, &scene).global;
       const Route route = scene.reference.route;
       reference.description
         = describe(*reference.displacement,

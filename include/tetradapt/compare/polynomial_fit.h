@@ -2,69 +2,134 @@
 #ifndef tetradapt_compare_polynomial_fit_h
 #define tetradapt_compare_polynomial_fit_h
 
-#include <deal.II/base/point.h>
+#include <algorithm>
+#include <cmath>
 
 namespace tetradapt::compare
 {
-  using dealii::Point;
-
   /** Numbers of monomials in three variables up to degree 0, 1 and 2. */
   constexpr unsigned int n_monomials[3] = {1, 4, 10};
 
   /** 1, x, y, z, x^2, y^2, z^2, xy, yz, zx up to degree @p degree (at most 2). */
+  template <unsigned int degree>
   inline void
-  monomials(const unsigned int degree, const double x, const double y, const double z, double *m)
+  monomials(const double x, const double y, const double z, double *m)
   {
     m[0] = 1.;
-    if (degree == 0)
-      return;
-    m[1] = x;
-    m[2] = y;
-    m[3] = z;
-    if (degree == 1)
-      return;
-    m[4] = x * x;
-    m[5] = y * y;
-    m[6] = z * z;
-    m[7] = x * y;
-    m[8] = y * z;
-    m[9] = z * x;
+    if (degree >= 1)
+      {
+        m[1] = x;
+        m[2] = y;
+        m[3] = z;
+      }
+    if (degree >= 2)
+      {
+        m[4] = x * x;
+        m[5] = y * y;
+        m[6] = z * z;
+        m[7] = x * y;
+        m[8] = y * z;
+        m[9] = z * x;
+      }
   }
 
   /**
-   * Least-squares fit of a polynomial in three variables to six functions at once
-   * (the components of a stress), by the normal equations with scaled columns and
-   * Cholesky's decomposition. Coordinates should be of order one.
+   * Cholesky's factor of a symmetric positive matrix whose rows and columns are
+   * scaled to a diagonal of ones. Lower triangle, row by row, @p n columns a row.
+   *
+   * @param smallest_pivot a pivot is the squared sine of the angle between a column
+   *        and the space of those before it; below, nothing is determined well.
+   * @return false if a pivot is too small; then @p matrix holds nothing of use.
    */
-  class PolynomialFit
+  template <unsigned int n>
+  bool
+  factorize(double (&matrix)[n][n], double (&scale)[n], const double smallest_pivot)
   {
-  public:
-    explicit PolynomialFit(unsigned int degree);
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        if (!(matrix[i][i] > 0.))
+          return false;
+        scale[i] = 1. / std::sqrt(matrix[i][i]);
+      }
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j <= i; ++j)
+        matrix[i][j] *= scale[i] * scale[j];
+    double column[n];
+    for (unsigned int k = 0; k < n; ++k)
+      {
+        if (!(matrix[k][k] > smallest_pivot))
+          return false;
+        const double root = std::sqrt(matrix[k][k]), factor = 1. / root;
+        matrix[k][k] = root;
+        for (unsigned int i = k + 1; i < n; ++i)
+          column[i] = matrix[i][k] *= factor;
+        for (unsigned int i = k + 1; i < n; ++i)
+          {
+            const double f = column[i];
+            for (unsigned int j = k + 1; j <= i; ++j)
+              matrix[i][j] -= f * column[j];
+          }
+      }
+    return true;
+  }
+
+  /** Solves with what factorize() left; @p x holds the right-hand side, then the
+   * solution. */
+  template <unsigned int n>
+  void
+  solve_factorized(const double (&matrix)[n][n], const double (&scale)[n], double *x)
+  {
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        double sum = x[i] * scale[i];
+        for (unsigned int k = 0; k < i; ++k)
+          sum -= matrix[i][k] * x[k];
+        x[i] = sum / matrix[i][i];
+      }
+    for (unsigned int i = n; i-- > 0;)
+      {
+        x[i] /= matrix[i][i];
+        const double f = x[i];
+        for (unsigned int k = 0; k < i; ++k)
+          x[k] -= matrix[i][k] * f;
+      }
+    for (unsigned int i = 0; i < n; ++i)
+      x[i] *= scale[i];
+  }
+
+  /**
+   * The normal equations of a least-squares fit of six functions at once (the
+   * components of a stress) by polynomials in three variables. Coordinates should be
+   * of order one.
+   */
+  template <unsigned int degree>
+  struct PolynomialFit
+  {
+    static constexpr unsigned int n = n_monomials[degree];
+
+    void
+    clear()
+    {
+      std::fill(&moments[0][0], &moments[0][0] + n * n, 0.);
+      std::fill(&right[0][0], &right[0][0] + 6 * n, 0.);
+    }
 
     /** Adds a point with its six values. */
     void
-    add(double x, double y, double z, const double *values);
-
-    unsigned int
-    n_points() const
+    add(const double x, const double y, const double z, const double *values)
     {
-      return points;
+      double m[n];
+      monomials<degree>(x, y, z, m);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j) // all of it: the compiler vectorises this
+          moments[i][j] += m[i] * m[j];
+      for (unsigned int c = 0; c < 6; ++c)
+        for (unsigned int i = 0; i < n; ++i)
+          right[c][i] += values[c] * m[i];
     }
 
-    /**
-     * Computes the coefficients, monomial by monomial: coefficients[6 i + c]
-     * belongs to monomial i and function c.
-     * @return false, with nothing computed, if the points do not determine the
-     *         polynomial well: if a column's part that is orthogonal to the ones
-     *         before is below 1e-3 of it.
-     */
-    bool
-    solve(double *coefficients);
-
-  private:
-    unsigned int degree, n, points = 0;
-    double       matrix[10][10]; ///< lower triangle
-    double       right[10][6];
+    double moments[n][n];
+    double right[6][n];
   };
 } // namespace tetradapt::compare
 

@@ -2,13 +2,91 @@
 #ifndef tetradapt_compare_recovery_h
 #define tetradapt_compare_recovery_h
 
-#include "tetradapt/mechanics/material_map.h"
-#include "tetradapt/mesh/nodal_field.h"
+#include "tetradapt/compare/cell_stress.h"
+#include "tetradapt/compare/given_loads.h"
+#include "tetradapt/compare/polynomial_fit.h"
+#include "tetradapt/compare/recovery_patches.h"
 
 #include <mpi.h>
 
 namespace tetradapt::compare
 {
+  /**
+   * Superconvergent patch recovery (Zienkiewicz and Zhu, IJNME 33, 1992) with the
+   * equations of equilibrium (Wiberg, Abdulwahab and Ziukas, IJNME 37, 1994): around every
+   * vertex, and separately in each region that meets there, a polynomial of the field's
+   * degree is fitted to the stresses at the cells' superconvergent points (degree 1:
+   * centroids; degree 2: the four Gauss points) and to what loads and supports say, see
+   * StressConditions; in a cell the patches of its vertices are blended by the
+   * barycentric coordinates.
+   *
+   * The stress is C : (eps(u_h) - eps_thermal). A patch with less than twice as many
+   * points as coefficients, or whose points determine the polynomial badly (in corners,
+   * in layers of one cell), is enlarged by the patches of its cells' vertices, twice at
+   * most; where that does not help, the polynomial's degree is lowered.
+   */
+  class RecoveredStress
+  {
+  public:
+    /**
+     * Collective; every rank gets all of it. Keeps a reference to the mesh of @p u_h.
+     *
+     * @param stress of @p u_h.
+     * @param loads what acts; null: nothing is known of the boundary and the inside.
+     */
+    RecoveredStress(const mesh::NodalField &u_h,
+                    const CellStress       &stress,
+                    const GivenLoads       *loads,
+                    MPI_Comm                communicator);
+
+    /** The recovered stress at a point of @p cell, given in both kinds of coordinates. */
+    void
+    at(const unsigned int       cell,
+       const mesh::Barycentric &b,
+       const Point<3>          &point,
+       double                  *stress) const
+    {
+      std::fill(stress, stress + 6, 0.);
+      for (unsigned int i = 0; i < 4; ++i)
+        if (linear)
+          add_polynomial<1>(patches.of_cell[cell][i], mesh.cells[cell][i], b[i], point, stress);
+        else
+          add_polynomial<2>(patches.of_cell[cell][i], mesh.cells[cell][i], b[i], point, stress);
+    }
+
+  private:
+    /** Adds @p factor times the polynomial of a patch at @p point. */
+    template <unsigned int degree>
+    void
+    add_polynomial(const unsigned int patch,
+                   const unsigned int vertex,
+                   const double       factor,
+                   const Point<3>    &point,
+                   double            *stress) const
+    {
+      constexpr unsigned int n          = n_monomials[degree];
+      const double          *polynomial = &polynomials[std::size_t(patch) * (1 + 6 * n)];
+      const double           scale      = 1. / polynomial[0];
+      const Point<3>        &center     = mesh.points[vertex];
+      double                 m[n];
+      monomials<degree>(scale * (point[0] - center[0]),
+                        scale * (point[1] - center[1]),
+                        scale * (point[2] - center[2]),
+                        m);
+      for (unsigned int k = 0; k < n; ++k)
+        {
+          const double weight = factor * m[k];
+          for (unsigned int c = 0; c < 6; ++c)
+            stress[c] += weight * polynomial[1 + 6 * k + c];
+        }
+    }
+
+    const mesh::TetMesh &mesh;
+    bool                 linear; ///< polynomials, else quadratic
+    RecoveryPatches      patches;
+    std::vector<double>  polynomials; ///< a patch: its unit of length, then the coefficients
+  };
+
   /** A recovered-stress estimate of the error of a solution. */
   struct RecoveryEstimate
   {
@@ -17,25 +95,19 @@ namespace tetradapt::compare
   };
 
   /**
-   * Zienkiewicz-Zhu estimate with superconvergent patch recovery (IJNME 33,
-   * 1992): around every vertex, and separately in each region that meets there,
-   * a polynomial of the field's degree is fitted to the stresses at the cells'
-   * superconvergent points (degree 1: centroids; degree 2: the four Gauss points);
-   * in a cell the patches of its vertices are blended by the barycentric
-   * coordinates. eta_K^2 = int_K (s*-s_h):C^-1:(s*-s_h). Collective.
+   * The estimate eta_K^2 = int_K (s*-s_h):C^-1:(s*-s_h) of Zienkiewicz and Zhu with the
+   * RecoveredStress s*. The integral is taken with 4 points for degree 1 and with 14 for
+   * degree 2: at the four Gauss points, where the stresses were taken, s*-s_h is far
+   * smaller than elsewhere. Collective.
    *
-   * The stress is the law's at the displacement gradient minus the thermal
-   * strain. A patch with less than twice as many points as coefficients, or whose
-   * points determine the polynomial badly (in corners, in layers of one cell), is
-   * enlarged by the patches of its cells' vertices, twice at most; where that
-   * does not help, the polynomial's degree is lowered. The integral is taken with
-   * 4 points for degree 1 and with 14 for degree 2: at the four Gauss points,
-   * where the stresses were taken, s*-s_h is far smaller than elsewhere.
+   * @param scene whose loads and supports, selected on the field's mesh, the recovered
+   *        stress has to fit; null: they are not known.
    */
   RecoveryEstimate
   recovery_estimate(const mesh::NodalField       &u_h,
                     const mechanics::MaterialMap &materials,
-                    MPI_Comm                      communicator);
+                    MPI_Comm                      communicator,
+                    const scene::Scene           *scene = nullptr);
 } // namespace tetradapt::compare
 
 #endif

@@ -30,6 +30,11 @@ namespace tetradapt::compare
     std::vector<unsigned int>                begin;   ///< of each patch in cells; one more entry
     std::vector<unsigned int>                cells;   ///< increasing in each patch
     std::vector<std::array<unsigned int, 4>> of_cell; ///< the patches of a cell's vertices
+    std::vector<unsigned int>                first_of_vertex; ///< patch; one more entry
+
+    /** The cell that has boundary face @p face of @p mesh. */
+    unsigned int
+    cell_of_face(const mesh::TetMesh &mesh, unsigned int face) const;
   };
 } // namespace tetradapt::compare
 

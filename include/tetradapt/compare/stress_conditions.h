@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_compare_stress_conditions_h
+#define tetradapt_compare_stress_conditions_h
+
+#include "tetradapt/compare/cell_stress.h"
+#include "tetradapt/compare/given_loads.h"
+#include "tetradapt/compare/recovery_patches.h"
+
+namespace tetradapt::compare
+{
+  /**
+   * What a recovered stress should satisfy beside being close to the computed one, as
+   * squares to be added to those of a fit.
+   *
+   * At points x of a boundary face with normal n, weighted with boundary_weight:
+   * sigma n = t in the components whose traction is known; and where a support holds
+   * all components, the strain in the plane of the face is that of the prescribed
+   * displacement, which u_h interpolates: (t_i t_j) : C^-1 (sigma - sigma_h) = 0 for two
+   * tangents, times 2 mu, so that it is a stress. In each cell's centre, weighted with
+   * inner_weight: div sigma + f = 0, times the size of the patch.
+   *
+   * Weighting was measured (indices of effectivity, degree 1 and 2, nu = .3 and .49): a
+   * weight of 1 hardly changes the estimate where the stress is singular at the
+   * boundary, which without it is a third too small, and 100 makes it a third too
+   * large; the inner one helps for nu near 1/2.
+   */
+  struct StressConditions
+  {
+    static constexpr double boundary_weight = 10., inner_weight = 0.1;
+
+    /** sum over the points x of (sigma(x) - s_x)^T matrix (sigma(x) - s_x), as it enters
+     * normal equations. */
+    struct Face
+    {
+      double       matrix[6][6];
+      unsigned int n_points;
+      Point<3>     points[3];
+      double       right[3][6]; ///< matrix s_x
+    };
+
+    /** For the mesh that @p u_h lives on: one point a face for degree 1, three for
+     * degree 2. */
+    StressConditions(const mesh::NodalField &u_h,
+                     const CellStress       &stress,
+                     const RecoveryPatches  &patches,
+                     const GivenLoads       &loads);
+
+    std::vector<char>         on_boundary; ///< per point of the mesh
+    std::vector<unsigned int> begin;       ///< of each cell in faces; one more entry
+    std::vector<Face>         faces;       ///< sorted by cells
+    std::vector<Tensor<1, 3>> forces;      ///< body force in the cells' centres; empty: none
+  };
+} // namespace tetradapt::compare
+
+#endif

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_compare_stress_difference_h
+#define tetradapt_compare_stress_difference_h
+
+#include "tetradapt/compare/cell_stress.h"
+#include "tetradapt/compare/field_evaluator.h"
+#include "tetradapt/compare/parallel.h"
+#include "tetradapt/compare/tet_quadrature.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tetradapt::compare
+{
+  /**
+   * The energy norm of the difference between a better stress and that of a solution,
+   * the root of int_K (s* - s_h) : C^-1 : (s* - s_h), for every cell. Collective.
+   *
+   * @param better gives s* at a point: better(cell, barycentric, point, stress).
+   * @param rule for the integral.
+   */
+  template <typename Stress>
+  std::vector<double>
+  stress_difference(const mesh::TetMesh &mesh,
+                    const CellStress    &stress,
+                    const Stress        &better,
+                    const TetQuadrature &rule,
+                    const MPI_Comm       communicator)
+  {
+    std::vector<double> result(mesh.n_cells(), 0.);
+    together(communicator, [&] {
+      const Slice slice = own_slice(mesh.n_cells(), communicator);
+      for (unsigned int cell = slice.begin; cell < slice.end; ++cell)
+        {
+          const ElasticMatrices &matrices = stress.materials()[cell];
+          double                 sum      = 0.;
+          for (unsigned int q = 0; q < rule.points.size(); ++q)
+            {
+              const Point<3> point = position(mesh, cell, rule.points[q]);
+              double         s[6], difference[6];
+              stress.at(cell, rule.points[q], point, s);
+              better(cell, rule.points[q], point, difference);
+              for (unsigned int c = 0; c < 6; ++c)
+                difference[c] -= s[c];
+              sum += rule.weights[q] * matrices.complementary_density(difference);
+            }
+          result[cell] = std::sqrt(std::max(sum, 0.) * mesh::cell_volume(mesh, cell));
+        }
+    });
+    gather_slices(result, mesh.n_cells(), 1, communicator);
+    return result;
+  }
+
+  /** Root of the sum of squares. */
+  inline double
+  root_of_squares(const std::vector<double> &values)
+  {
+    double sum = 0.;
+    for (const double v : values)
+      sum += v * v;
+    return std::sqrt(sum);
+  }
+} // namespace tetradapt::compare
+
+#endif

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/compare/cell_stress.h"
+
+#include "tetradapt/compare/field_evaluator.h"
+
+#include <deal.II/lac/full_matrix.h>
+
+namespace tetradapt::compare
+{
+  namespace
+  {
+    constexpr unsigned int pairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
+  }
+
+  ElasticMatrices::ElasticMatrices(const mechanics::ConstitutiveLaw &law)
+  {
+    const auto                 C = law.tangent(Tensor<2, 3>());
+    dealii::FullMatrix<double> inverse(6, 6);
+    for (unsigned int a = 0; a < 6; ++a)
+      for (unsigned int b = 0; b < 6; ++b)
+        inverse(a, b) = stiffness[a][b] = C[pairs[a][0]][pairs[a][1]][pairs[b][0]][pairs[b][1]];
+    inverse.gauss_jordan();
+    for (unsigned int a = 0; a < 6; ++a)
+      for (unsigned int b = 0; b < 6; ++b)
+        compliance[a][b] = inverse(a, b);
+    shear_modulus = (stiffness[3][3] + stiffness[4][4] + stiffness[5][5]) / 3.;
+  }
+
+  CellMaterials::CellMaterials(const mechanics::MaterialMap &materials, const mesh::TetMesh &mesh)
+    : index(mesh.n_cells())
+  {
+    std::map<int, unsigned int> of_region;
+    for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
+      {
+        const int region = mesh.regions[cell];
+        if (cell > 0 && region == mesh.regions[cell - 1])
+          {
+            index[cell] = index[cell - 1];
+            continue;
+          }
+        const auto found = of_region.emplace(region, matrices.size());
+        if (found.second)
+          matrices.emplace_back(materials.law(region));
+        index[cell] = found.first->second;
+      }
+  }
+
+  CellStress::CellStress(const mesh::NodalField &u_h, const mechanics::MaterialMap &materials)
+    : mesh(u_h.mesh()), material_map(materials), cell_materials(materials, u_h.mesh()),
+      linear(u_h.degree() == 2)
+  {
+    const unsigned int n_cells = mesh.n_cells();
+    values.resize(std::size_t(n_cells) * (linear ? 24 : 6));
+    double strain[6];
+    for (unsigned int cell = 0; cell < n_cells; ++cell)
+      {
+        const ElasticMatrices &matrices = cell_materials[cell];
+        if (linear)
+          {
+            const auto gradients = vertex_gradients(u_h, cell);
+            for (unsigned int i = 0; i < 4; ++i)
+              {
+                engineering_strain(gradients[i], strain);
+                matrices.stress(strain, &values[24 * std::size_t(cell) + 6 * i]);
+              }
+            continue;
+          }
+        const auto   g = mesh::barycentric_gradients(mesh, cell);
+        Tensor<2, 3> gradient;
+        for (unsigned int i = 0; i < 4; ++i)
+          for (unsigned int c = 0; c < 3; ++c)
+            gradient[c] += u_h.values[mesh.cells[cell][i]][c] * g[i];
+        engineering_strain(gradient, strain);
+        matrices.stress(strain, &values[6 * std::size_t(cell)]);
+      }
+  }
+
+  void
+  CellStress::subtract_thermal(const unsigned int cell, const Point<3> &point, double *stress) const
+  {
+    double strain[6], thermal[6];
+    engineering_strain(Tensor<2, 3>(material_map.thermal_strain(mesh.regions[cell], point)),
+                       strain);
+    cell_materials[cell].stress(strain, thermal);
+    for (unsigned int a = 0; a < 6; ++a)
+      stress[a] -= thermal[a];
+  }
+} // namespace tetradapt::compare
