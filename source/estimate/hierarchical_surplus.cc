@@ -11,8 +11,8 @@ namespace tetradapt::estimate
 {
   namespace
   {
-    const double odd_scale  = 6. * std::sqrt(3.); ///< makes b_i b_j (b_i - b_j) at most 1
-    const double face_scale = 27.;
+    constexpr double odd_scale  = HierarchicalSurplus::odd_scale;
+    constexpr double face_scale = HierarchicalSurplus::face_scale;
 
     /** Local edges of the local faces, opposite the face's vertices in turn: edge k of a
      * face joins its vertices k and k + 1. */

@@ -41,6 +41,8 @@ namespace tetradapt::estimate
   {
   public:
     static constexpr unsigned int max_per_cell = 10;
+    static constexpr double       odd_scale    = 10.392304845413264; ///< 6 sqrt(3)
+    static constexpr double       face_scale   = 27.;
 
     /** For the space of @p field; shares its mesh and edges. */
     explicit HierarchicalSurplus(const mesh::NodalField &field);
