@@ -2,17 +2,17 @@
 #ifndef tetradapt_estimate_bernstein_kernel_h
 #define tetradapt_estimate_bernstein_kernel_h
 
-#include <array>
-
 namespace tetradapt::estimate
 {
   /** One number for each of eight cells, which are worked on at once. */
   using Lanes                    = double __attribute__((vector_size(64)));
   constexpr unsigned int n_lanes = 8;
 
+  // Plain arrays throughout: a function compiled for several processors does not inline
+  // std::array's operator[].
+
   /** Local edges of a tetrahedron whose vertices are sorted: from smaller to larger. */
-  constexpr std::array<std::array<unsigned int, 2>, 6> sorted_edges{
-    {{{0, 1}}, {{1, 2}}, {{0, 2}}, {{0, 3}}, {{1, 3}}, {{2, 3}}}};
+  constexpr unsigned int sorted_edges[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, {2, 3}};
 
   /**
    * The Bernstein polynomials of degree q on a tetrahedron, q!/alpha! b^alpha, numbered
@@ -23,48 +23,60 @@ namespace tetradapt::estimate
   template <unsigned int q>
   struct Bernstein
   {
-    using Index = std::array<unsigned int, 4>;
-
     static constexpr unsigned int n = (q + 1) * (q + 2) * (q + 3) / 6; ///< polynomials
     static constexpr unsigned int m = q * (q + 1) * (q + 2) / 6;       ///< of degree q - 1
 
-    static constexpr std::array<Index, n>
+    struct Indices
+    {
+      unsigned int alpha[n][4];
+    };
+    struct Raised
+    {
+      unsigned int number[m][4]; ///< of beta + e_i
+    };
+    struct Mass
+    {
+      double mean[m][m]; ///< of products of two polynomials of degree q - 1
+    };
+
+    static constexpr Indices
     indices()
     {
-      std::array<Index, n> result{};
-      unsigned int         k = 0;
+      Indices      result{};
+      unsigned int k = 0;
+      if (q == 0)
+        return result;
       for (unsigned int v = 0; v < 4; ++v)
-        result[k++][v] = q;
+        result.alpha[k++][v] = q;
       if (q > 1)
         for (unsigned int e = 0; e < 6; ++e)
           for (unsigned int s = 1; s < q; ++s, ++k)
             {
-              result[k][sorted_edges[e][0]] = q - s;
-              result[k][sorted_edges[e][1]] = s;
+              result.alpha[k][sorted_edges[e][0]] = q - s;
+              result.alpha[k][sorted_edges[e][1]] = s;
             }
       if (q > 2)
         for (unsigned int f = 0; f < 4; ++f, ++k)
           for (unsigned int v = 0; v < 4; ++v)
-            result[k][v] = v == f ? 0 : 1;
+            result.alpha[k][v] = v == f ? 0 : 1;
       return result;
     }
 
-    /** The number of beta + e_i. */
-    static constexpr std::array<std::array<unsigned int, 4>, m>
+    static constexpr Raised
     raised()
     {
-      const auto                                 upper = indices();
-      const auto                                 lower = Bernstein<q - 1>::indices();
-      std::array<std::array<unsigned int, 4>, m> result{};
+      const auto upper = indices();
+      const auto lower = Bernstein<q - 1>::indices();
+      Raised     result{};
       for (unsigned int b = 0; b < m; ++b)
         for (unsigned int i = 0; i < 4; ++i)
           for (unsigned int a = 0; a < n; ++a)
             {
               bool same = true;
               for (unsigned int v = 0; v < 4; ++v)
-                same = same && upper[a][v] == lower[b][v] + (v == i ? 1 : 0);
+                same = same && upper.alpha[a][v] == lower.alpha[b][v] + (v == i ? 1 : 0);
               if (same)
-                result[b][i] = a;
+                result.number[b][i] = a;
             }
       return result;
     }
@@ -78,37 +90,28 @@ namespace tetradapt::estimate
       return result;
     }
 
-    /** Mean over the cell of the products of the polynomials of degree q - 1. */
-    static constexpr std::array<std::array<double, m>, m>
+    static constexpr Mass
     mass()
     {
-      const auto                           lower = Bernstein<q - 1>::indices();
-      std::array<std::array<double, m>, m> result{};
+      const auto lower = Bernstein<q - 1>::indices();
+      Mass       result{};
       for (unsigned int a = 0; a < m; ++a)
         for (unsigned int b = 0; b < m; ++b)
           {
             double value = 1. / binomial(2 * (q - 1), q - 1) / binomial(2 * q + 1, 3);
             for (unsigned int v = 0; v < 4; ++v)
-              value *= binomial(lower[a][v] + lower[b][v], lower[a][v]);
-            result[a][b] = value;
+              value *= binomial(lower.alpha[a][v] + lower.alpha[b][v], lower.alpha[a][v]);
+            result.mean[a][b] = value;
           }
       return result;
     }
   };
 
-  /** The single polynomial of degree 0. */
-  template <>
-  struct Bernstein<0>
-  {
-    static constexpr std::array<std::array<unsigned int, 4>, 1>
-    indices()
-    {
-      return {};
-    }
-  };
-
   /** Stiffness in Voigt order xx, yy, zz, yz, xz, xy for engineering shears. */
-  using VoigtMatrix = std::array<std::array<double, 6>, 6>;
+  struct VoigtMatrix
+  {
+    double value[6][6];
+  };
 
   /** Geometry of eight cells of one material. */
   struct CellBatchGeometry
@@ -140,7 +143,7 @@ namespace tetradapt::estimate
         Lanes e[6] = {};
         for (unsigned int i = 0; i < 4; ++i)
           {
-            const auto &c = coefficients[raised[b][i]];
+            const auto &c = coefficients[raised.number[b][i]];
             e[0] += c[0] * g[i][0];
             e[1] += c[1] * g[i][1];
             e[2] += c[2] * g[i][2];
@@ -150,9 +153,9 @@ namespace tetradapt::estimate
           }
         for (unsigned int i = 0; i < 6; ++i)
           {
-            Lanes sum = D[i][0] * e[0];
+            Lanes sum = D.value[i][0] * e[0];
             for (unsigned int j = 1; j < 6; ++j)
-              sum += D[i][j] * e[j];
+              sum += D.value[i][j] * e[j];
             stress[b][i] = sum;
           }
       }
@@ -165,14 +168,14 @@ namespace tetradapt::estimate
         Lanes s[6];
         for (unsigned int i = 0; i < 6; ++i)
           {
-            Lanes sum = mass[b][0] * stress[0][i];
+            Lanes sum = mass.mean[b][0] * stress[0][i];
             for (unsigned int k = 1; k < m; ++k)
-              sum += mass[b][k] * stress[k][i];
+              sum += mass.mean[b][k] * stress[k][i];
             s[i] = factor * sum;
           }
         for (unsigned int i = 0; i < 4; ++i)
           {
-            auto &f = forces[raised[b][i]];
+            auto &f = forces[raised.number[b][i]];
             f[0] += s[0] * g[i][0] + s[5] * g[i][1] + s[4] * g[i][2];
             f[1] += s[5] * g[i][0] + s[1] * g[i][1] + s[3] * g[i][2];
             f[2] += s[4] * g[i][0] + s[3] * g[i][1] + s[2] * g[i][2];

@@ -18,7 +18,7 @@ namespace tetradapt::estimate
       VoigtMatrix D;
       for (unsigned int i = 0; i < 6; ++i)
         for (unsigned int j = 0; j < 6; ++j)
-          D[i][j] = C[voigt[i][0]][voigt[i][1]][voigt[j][0]][voigt[j][1]];
+          D.value[i][j] = C[voigt[i][0]][voigt[i][1]][voigt[j][0]][voigt[j][1]];
       return D;
     }
 
@@ -118,7 +118,8 @@ namespace tetradapt::estimate
         for (unsigned int j = 0; j < 4; ++j)
           for (unsigned int a = 0; a < Bernstein<q>::m; ++a)
             for (unsigned int b = 0; b < Bernstein<q>::m; ++b)
-              result[i][j] += q * q * mass[a][b] * c[raised[a][i]] * c[raised[b][j]];
+              result[i][j]
+                += q * q * mass.mean[a][b] * c[raised.number[a][i]] * c[raised.number[b][j]];
       return result;
     }
 
@@ -146,7 +147,7 @@ namespace tetradapt::estimate
             Lanes sum = {};
             for (unsigned int i = 0; i < 3; ++i)
               for (unsigned int j = 0; j < 3; ++j)
-                sum += D[voigt_index[c][i]][voigt_index[d][j]] * P[i][j];
+                sum += D.value[voigt_index[c][i]][voigt_index[d][j]] * P[i][j];
             block[3 * c + d] = sum;
           }
     }

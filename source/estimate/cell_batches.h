@@ -23,10 +23,10 @@ namespace tetradapt::estimate
     CellBatchGeometry geometry;
     /** Numbers of the hierarchical functions of degree q: vertices, middles of edges
      * (q = 3), the surplus of edges, of faces (q = 3). */
-    std::array<std::array<unsigned int, n_lanes>, n> functions;
-    std::array<unsigned int, n_lanes>                cells;
-    unsigned int                                     n_cells = 0;
-    const VoigtMatrix                               *D       = nullptr;
+    unsigned int       functions[n][n_lanes];
+    unsigned int       cells[n_lanes];
+    unsigned int       n_cells = 0;
+    const VoigtMatrix *D       = nullptr;
   };
 
   /** The cells of a slice of a mesh in batches, of degree 2 or 3. */

@@ -46,10 +46,9 @@ namespace tetradapt::estimate
     }
 
     /** Edges of the face opposite vertex f. */
-    constexpr std::array<std::array<unsigned int, 3>, 4> face_edges{
-      {{{1, 4, 5}}, {{2, 3, 5}}, {{0, 3, 4}}, {{0, 1, 2}}}};
-    constexpr double odd  = HierarchicalSurplus::odd_scale / 3.;
-    constexpr double face = HierarchicalSurplus::face_scale / 6.;
+    constexpr unsigned int face_edges[4][3] = {{1, 4, 5}, {2, 3, 5}, {0, 3, 4}, {0, 1, 2}};
+    constexpr double       odd              = HierarchicalSurplus::odd_scale / 3.;
+    constexpr double       face             = HierarchicalSurplus::face_scale / 6.;
 
     inline __attribute__((always_inline)) void
     to_bernstein(const Lanes (&h)[20][3], Lanes (&c)[20][3])
@@ -60,7 +59,7 @@ namespace tetradapt::estimate
             c[v][k] = h[v][k];
           for (unsigned int e = 0; e < 6; ++e)
             {
-              const auto &[i, j]  = sorted_edges[e];
+              const unsigned int i = sorted_edges[e][0], j = sorted_edges[e][1];
               c[4 + 2 * e][k]     = (4. * h[4 + e][k] - h[j][k]) / 3. + odd * h[10 + e][k];
               c[4 + 2 * e + 1][k] = (4. * h[4 + e][k] - h[i][k]) / 3. - odd * h[10 + e][k];
             }
@@ -85,8 +84,8 @@ namespace tetradapt::estimate
             h[v][k] = c[v][k];
           for (unsigned int e = 0; e < 6; ++e)
             {
-              const auto &[i, j] = sorted_edges[e];
-              const Lanes first = c[4 + 2 * e][k], second = c[4 + 2 * e + 1][k];
+              const unsigned int i = sorted_edges[e][0], j = sorted_edges[e][1];
+              const Lanes        first = c[4 + 2 * e][k], second = c[4 + 2 * e + 1][k];
               h[i][k] -= second / 3.;
               h[j][k] -= first / 3.;
               h[4 + e][k]  = 4. / 3. * (first + second);

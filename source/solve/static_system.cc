@@ -147,6 +147,19 @@ namespace tetradapt::solve
     data->space->gather(x, displacement);
   }
 
+  NodalValues
+  StaticSystem::nodal_forces() const
+  {
+    const DisplacementSpace &space = *data->space;
+    Vector                   owned(space.vector_layout());
+    for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
+      for (unsigned int c = 0; c < 3; ++c)
+        owned.local_element(3 * node + c) = data->forces[space.field_node(node)][c];
+    NodalValues whole;
+    space.gather(owned, whole);
+    return whole;
+  }
+
   const mechanics::PrescribedDisplacement &
   StaticSystem::prescribed() const
   {

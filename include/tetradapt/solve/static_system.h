@@ -61,6 +61,11 @@ namespace tetradapt::solve
     precondition(const std::vector<dealii::Tensor<1, 3>> &forces,
                  std::vector<dealii::Tensor<1, 3>>       &displacement) const;
 
+    /** The loads' forces on the nodes, whole on every rank; where supports hold a
+     * component, too. Collective. */
+    std::vector<dealii::Tensor<1, 3>>
+    nodal_forces() const;
+
     /** What the supports prescribe at the nodes. */
     const mechanics::PrescribedDisplacement &
     prescribed() const;

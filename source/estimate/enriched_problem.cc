@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/estimate/enriched_problem.h"
+
+#include "tetradapt/compare/given_loads.h"
+#include "tetradapt/compare/parallel.h"
+#include "tetradapt/compare/tet_quadrature.h"
+#include "tetradapt/core/exceptions.h"
+#include "tetradapt/solve/conjugate_gradients.h"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/lac/full_matrix.h>
+
+#include <cmath>
+
+namespace tetradapt::estimate
+{
+  namespace
+  {
+    using Values = EnrichedSpace::Values;
+
+    /** Adds the loads' forces on the surplus; those on the nodes are known. Faces are
+     * integrated with 7 points, cells with 14, as for the solution. */
+    class SurplusLoads
+    {
+    public:
+      SurplusLoads(const scene::Scene           &scene,
+                   const mechanics::MaterialMap &materials,
+                   const EnrichedSpace          &space)
+        : loads(scene, materials, space.surplus().mesh()), materials(materials), space(space),
+          surplus(space.surplus()), mesh(surplus.mesh())
+      {
+      }
+
+      void
+      add_faces(Values &forces) const
+      {
+        const auto slice = compare::own_slice(mesh.faces.size(), space.communicator());
+        const dealii::QGaussSimplex<2> rule(3);
+        double                         shapes[HierarchicalSurplus::max_per_cell];
+        for (unsigned int f = slice.begin; f < slice.end; ++f)
+          if (loads.has_traction(f))
+            {
+              const unsigned int slot = surplus.faces().boundary_slots[f], cell = slot / 4;
+              const Tensor<1, 3> area   = mesh::face_area_vector(mesh, mesh.faces[f]);
+              const Tensor<1, 3> normal = area / area.norm();
+              for (unsigned int q = 0; q < rule.size(); ++q)
+                {
+                  const auto &t = rule.point(q);
+                  const auto  b = on_face(cell, f, {{1. - t[0] - t[1], t[0], t[1]}});
+                  HierarchicalSurplus::values(surplus.degree(), b, shapes);
+                  const Tensor<1, 3> force = 2. * rule.weight(q) * area.norm()
+                                             * loads.traction(f, position(cell, b), normal);
+                  add(cell, shapes, force, forces);
+                }
+            }
+      }
+
+      void
+      add_cells(Values &forces) const
+      {
+        if (!loads.has_body_force() && !materials.has_thermal_strain())
+          return;
+        const auto   slice = compare::own_slice(mesh.n_cells(), space.communicator());
+        const auto  &rule  = compare::tet_quadrature(5);
+        double       shapes[HierarchicalSurplus::max_per_cell];
+        Tensor<1, 3> gradients[HierarchicalSurplus::max_per_cell];
+        for (unsigned int cell = slice.begin; cell < slice.end; ++cell)
+          {
+            const auto   directions = mesh::barycentric_gradients(mesh, cell);
+            const double volume     = mesh::cell_volume(mesh, cell);
+            for (unsigned int q = 0; q < rule.points.size(); ++q)
+              {
+                const Point<3> x      = position(cell, rule.points[q]);
+                const double   weight = volume * rule.weights[q];
+                if (loads.has_body_force())
+                  {
+                    HierarchicalSurplus::values(surplus.degree(), rule.points[q], shapes);
+                    add(cell, shapes, weight * loads.body_force(cell, x), forces);
+                  }
+                if (materials.has_thermal_strain())
+                  {
+                    HierarchicalSurplus::gradients(surplus.degree(),
+                                                   rule.points[q],
+                                                   directions,
+                                                   gradients);
+                    add(cell, gradients, weight * thermal_stress(cell, x), forces);
+                  }
+              }
+          }
+      }
+
+    private:
+      mesh::Barycentric
+      on_face(unsigned int cell, unsigned int f, const std::array<double, 3> &weights) const
+      {
+        mesh::Barycentric b{{0., 0., 0., 0.}};
+        for (unsigned int i = 0; i < 4; ++i)
+          for (unsigned int k = 0; k < 3; ++k)
+            if (mesh.cells[cell][i] == mesh.faces[f].vertices[k])
+              b[i] = weights[k];
+        return b;
+      }
+
+      Point<3>
+      position(unsigned int cell, const mesh::Barycentric &b) const
+      {
+        Point<3> x;
+        for (unsigned int i = 0; i < 4; ++i)
+          x += b[i] * Tensor<1, 3>(mesh.points[mesh.cells[cell][i]]);
+        return x;
+      }
+
+      /** The stress that would hold the thermal strain back. */
+      Tensor<2, 3>
+      thermal_stress(unsigned int cell, const Point<3> &x) const
+      {
+        const int region = mesh.regions[cell];
+        return Tensor<2, 3>(
+          materials.law(region).stress(Tensor<2, 3>(materials.thermal_strain(region, x))));
+      }
+
+      /** Adds factor times (value or gradient) of each function: force times values, or
+       * stress times gradients. */
+      template <typename Shape, typename Factor>
+      void
+      add(unsigned int cell, const Shape *shapes, const Factor &factor, Values &forces) const
+      {
+        const auto signs = surplus.signs(cell);
+        for (unsigned int i = 0; i < surplus.n_per_cell(); ++i)
+          {
+            const std::size_t  function = space.n_nodes() + surplus.function(cell, i);
+            const Tensor<1, 3> force    = signs[i] * (factor * shapes[i]);
+            for (unsigned int c = 0; c < 3; ++c)
+              forces[3 * function + c] += force[c];
+          }
+      }
+
+      const compare::GivenLoads     loads;
+      const mechanics::MaterialMap &materials;
+      const EnrichedSpace          &space;
+      const HierarchicalSurplus    &surplus;
+      const mesh::TetMesh          &mesh;
+    };
+
+    Values
+    inverse_blocks(Values blocks)
+    {
+      dealii::FullMatrix<double> block(3, 3);
+      for (std::size_t first = 0; first < blocks.size(); first += 9)
+        {
+          for (unsigned int i = 0; i < 9; ++i)
+            block(i / 3, i % 3) = blocks[first + i];
+          block.gauss_jordan();
+          for (unsigned int i = 0; i < 9; ++i)
+            blocks[first + i] = block(i / 3, i % 3);
+        }
+      return blocks;
+    }
+
+    double
+    product(const Values &a, const Values &b)
+    {
+      double sum = 0.;
+      for (std::size_t i = 0; i < a.size(); ++i)
+        sum += a[i] * b[i];
+      return sum;
+    }
+
+    /** a = factor a + b */
+    void
+    scale_and_add(Values &a, double factor, const Values &b)
+    {
+      for (std::size_t i = 0; i < a.size(); ++i)
+        a[i] = factor * a[i] + b[i];
+    }
+
+    const solve::StaticSolution &
+    checked(const solve::StaticSolution &solution)
+    {
+      if (solution.system == nullptr)
+        throw core::InputError("A solution in the space of the next degree is asked for, but the "
+                               "system that was solved has not been kept.");
+      return solution;
+    }
+  } // namespace
+
+  EnrichedProblem::EnrichedProblem(const scene::Scene           &scene,
+                                   const mechanics::MaterialMap &materials,
+                                   const solve::StaticSolution  &solution,
+                                   MPI_Comm                      communicator)
+    : solution(checked(solution)), enriched_space(*solution.displacement, materials, communicator),
+      prescribed(prescribe_surplus(scene.supports, enriched_space.surplus())),
+      block_inverses(inverse_blocks(enriched_space.surplus_diagonal()))
+  {
+    Values             extra(enriched_space.size(), 0.);
+    const SurplusLoads surplus_loads(scene, materials, enriched_space);
+    compare::together(communicator, [&] {
+      surplus_loads.add_faces(extra);
+      surplus_loads.add_cells(extra);
+    });
+    compare::sum_over_ranks(extra, communicator);
+    loads = enriched_space.embed(solution.system->nodal_forces());
+    scale_and_add(loads, 1., extra);
+  }
+
+  Values
+  EnrichedProblem::supported_solution() const
+  {
+    Values             u     = enriched_space.embed(solution.displacement->values);
+    const unsigned int first = enriched_space.n_nodes();
+    for (unsigned int i = 0; i < enriched_space.surplus().n_functions(); ++i)
+      for (unsigned int c = 0; c < 3; ++c)
+        u[3 * static_cast<std::size_t>(first + i) + c] = prescribed.values[i][c];
+    return u;
+  }
+
+  void
+  EnrichedProblem::clear_supported(Values &forces) const
+  {
+    const auto clear
+      = [&forces](const mechanics::PrescribedDisplacement &supports, std::size_t first) {
+          for (unsigned int i = 0; i < supports.fixed.size(); ++i)
+            if (supports.fixed[i] != 0)
+              for (unsigned int c = 0; c < 3; ++c)
+                if (supports.is_fixed(i, c))
+                  forces[3 * (first + i) + c] = 0.;
+        };
+    clear(solution.system->prescribed(), 0);
+    clear(prescribed, enriched_space.n_nodes());
+  }
+
+  Values
+  EnrichedProblem::residual(const Values &u) const
+  {
+    Values result;
+    enriched_space.multiply(u, result);
+    scale_and_add(result, -1., loads);
+    clear_supported(result);
+    return result;
+  }
+
+  void
+  EnrichedProblem::precondition(const Values &residual, Values &result) const
+  {
+    const std::size_t n_nodes = enriched_space.n_nodes();
+    nodal_residual.resize(n_nodes);
+    for (std::size_t i = 0; i < n_nodes; ++i)
+      for (unsigned int c = 0; c < 3; ++c)
+        nodal_residual[i][c] = residual[3 * i + c];
+    solution.system->precondition(nodal_residual, nodal_result);
+    result.resize(residual.size());
+    for (std::size_t i = 0; i < n_nodes; ++i)
+      for (unsigned int c = 0; c < 3; ++c)
+        result[3 * i + c] = nodal_result[i][c];
+
+    const double *r = residual.data() + 3 * n_nodes;
+    double       *z = result.data() + 3 * n_nodes;
+    for (const double *b = block_inverses.data(), *end = b + block_inverses.size(); b != end;
+         b += 9, r += 3, z += 3)
+      for (unsigned int c = 0; c < 3; ++c)
+        z[c] = b[3 * c] * r[0] + b[3 * c + 1] * r[1] + b[3 * c + 2] * r[2];
+    clear_supported(result);
+  }
+
+  EnrichedProblem::Correction
+  EnrichedProblem::solve(const Values &forces, double tolerance) const
+  {
+    constexpr unsigned int     most = 500; // tens are usual, at Poisson ratios near 0.5, too
+    Correction                 result;
+    Values                     residual = forces, preconditioned, direction, stiff;
+    solve::EnergyErrorEstimate estimate;
+    double                     energy = 0., gained = 0.;
+    result.values.assign(forces.size(), 0.);
+    for (; result.n_iterations < most; ++result.n_iterations)
+      {
+        precondition(residual, preconditioned);
+        const double before = energy;
+        energy              = product(residual, preconditioned);
+        if (energy == 0.)
+          return result; // the solution is exact
+        if (result.n_iterations == 0)
+          direction = preconditioned;
+        else
+          scale_and_add(direction, energy / before, preconditioned);
+        enriched_space.multiply(direction, stiff);
+        clear_supported(stiff);
+        const double alpha = energy / product(direction, stiff);
+        for (std::size_t i = 0; i < forces.size(); ++i)
+          {
+            result.values[i] += alpha * direction[i];
+            residual[i] -= alpha * stiff[i];
+          }
+        estimate.add(alpha * energy);
+        gained += alpha * energy;
+        result.norm        = std::sqrt(gained);
+        const auto squared = estimate.squared_error();
+        if (squared && *squared <= tolerance * tolerance * gained)
+          {
+            result.error = std::sqrt(*squared);
+            ++result.n_iterations;
+            return result;
+          }
+      }
+    throw core::NumericalError(
+      "The solution of the next degree, which an error estimator needs, did not converge in "
+      + std::to_string(most)
+      + " iterations. Look for materials of very different stiffness, a Poisson ratio close to "
+        "0.5 or very flat elements, or choose another estimator in the section 'Estimation'.");
+  }
+} // namespace tetradapt::estimate
