@@ -142,8 +142,11 @@ namespace tetradapt::adapt
       // An adaptive loop driven by the exact error does not use the reference.
       const bool drives = parameters.strategy == Strategy::adaptive
                           && parameters.driver != AdaptivityParameters::Driver::exact;
+      // Who has turned the safeguard off gets the rules that were asked for and no others.
+      const bool blind = trust == ReferenceTrust::saturated && !parameters.safeguard;
       const bool ends
-        = drives || (parameters.strategy == Strategy::uniform && measured_with_reference(context));
+        = (drives && !blind)
+          || (parameters.strategy == Strategy::uniform && measured_with_reference(context));
       std::string text;
       if (trust == ReferenceTrust::saturated)
         {

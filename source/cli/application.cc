@@ -5,6 +5,7 @@
 #include "tetradapt/cli/load_scene.h"
 #include "tetradapt/cli/outcome.h"
 #include "tetradapt/cli/run_scene.h"
+#include "tetradapt/cli/run_study.h"
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/scene/plan.h"
 
@@ -73,6 +74,18 @@ namespace tetradapt::cli
       return std::filesystem::weakly_canonical(name).string();
     }
 
+    /** The plan of a scene; of a study the names of its runs and the plan of the first. */
+    std::string
+    plan_text(const scene::Scene &scene, const std::vector<StudyRun> &runs)
+    {
+      if (runs.empty())
+        return scene::Plan(scene).text();
+      std::string text = "a study of " + std::to_string(runs.size()) + " runs:\n";
+      for (const StudyRun &run : runs)
+        text += "  " + run.name + "\n";
+      return text + "the first one\n" + scene::Plan(runs.front().scene).text();
+    }
+
     int
     validate(const Options &options, const bool print)
     {
@@ -80,12 +93,17 @@ namespace tetradapt::cli
       for (const auto &file : options.scenes)
         {
           const Outcome outcome = attempt([&] {
-            const scene::Scene scene = load_scene(file, options);
+            const scene::Scene          scene = load_scene(file, options);
+            const std::vector<StudyRun> runs
+              = scene.variations.empty() ? std::vector<StudyRun>() : load_study(scene, options);
             if (!print)
               return;
             try
               {
-                check_inputs(scene);
+                if (runs.empty())
+                  check_inputs(scene);
+                else
+                  check_study_inputs(scene, runs);
               }
             catch (const core::InputError &error)
               {
@@ -94,13 +112,34 @@ namespace tetradapt::cli
             for (const auto &warning : scene.warnings())
               std::cerr << "warning: " << warning << '\n';
             if (!options.quiet)
-              std::cerr << file << ": valid\n" << scene::Plan(scene).text();
+              std::cerr << file << ": valid\n" << plan_text(scene, runs);
           });
           if (outcome.code != Outcome::done && print)
             std::cerr << "error: " << outcome.message << '\n';
           worst = std::max(worst, outcome.code);
         }
       return worst;
+    }
+
+    /** Runs a scene or a study; returns the largest code of a study's runs. */
+    int
+    compute(const scene::Scene &scene,
+            const Options      &options,
+            const RunOptions   &run_options,
+            MPI_Comm            control)
+    {
+      try
+        {
+          if (!scene.variations.empty())
+            return run_study(
+              scene, load_study(scene, options), run_options, MPI_COMM_WORLD, control);
+          run_scene(scene, scene::effective_parameters(scene), run_options, MPI_COMM_WORLD);
+          return Outcome::done;
+        }
+      catch (const core::InputError &error)
+        {
+          throw core::InputError(scene.with_place(error.what()));
+        }
     }
 
     int
@@ -127,17 +166,8 @@ namespace tetradapt::cli
                               control);
           if (code == Outcome::done)
             code = conclude(attempt([&] {
-                              try
-                                {
-                                  run_scene(scene,
-                                            scene::effective_parameters(scene),
-                                            run_options,
-                                            MPI_COMM_WORLD);
-                                }
-                              catch (const core::InputError &error)
-                                {
-                                  throw core::InputError(scene.with_place(error.what()));
-                                }
+                              worst
+                                = std::max(worst, compute(scene, options, run_options, control));
                             }),
                             control);
           worst = std::max(worst, code);

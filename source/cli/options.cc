@@ -157,7 +157,9 @@ reference, and lets TetGen refine the mesh until the error is small.
   --version                    print the versions of the program and its libraries
   -h, --help                   print this text
 
-Several scenes run one after another; one that fails does not stop the others.
+Several scenes run one after another; one that fails does not stop the others. A scene
+with a subsection Study runs once for every combination of its values, each in a folder
+of its own, and ends with one table (study.csv) of all.
 In parallel: mpirun -np 2 tetradapt scene.prm
 
 Exit code: 0 all done; 1 a computation failed; 2 bad input (also if, with several

@@ -5,8 +5,11 @@
 #include "tetradapt/core/on_first_rank.h"
 #include "tetradapt/report/convergence_table.h"
 #include "tetradapt/report/log_sinks.h"
+#include "tetradapt/report/mesh_report.h"
 #include "tetradapt/report/mesh_summary.h"
 #include "tetradapt/report/output_directory.h"
+#include "tetradapt/report/plots.h"
+#include "tetradapt/report/results.h"
 #include "tetradapt/report/vtu_series.h"
 #include "tetradapt/scene/plan.h"
 
@@ -19,6 +22,14 @@ namespace tetradapt::cli
 {
   namespace
   {
+    report::TerminalSink::Options
+    sink_options(const RunOptions &options)
+    {
+      auto sink  = report::TerminalSink::stderr_options(options.quiet);
+      sink.brief = options.brief;
+      return sink;
+    }
+
     /** What watches a run on the first rank; empty on the others. */
     class Watchers
     {
@@ -27,8 +38,8 @@ namespace tetradapt::cli
                const std::string  &effective_parameters,
                const RunOptions   &options,
                core::Log          &log)
-        : log(log), terminal(std::make_unique<report::TerminalSink>(
-                      log, std::cerr, report::TerminalSink::stderr_options(options.quiet))),
+        : log(log),
+          terminal(std::make_unique<report::TerminalSink>(log, std::cerr, sink_options(options))),
           directory(scene), log_file(log, directory.file("log.txt"))
       {
         directory.write_parameters(effective_parameters);
@@ -36,6 +47,10 @@ namespace tetradapt::cli
         std::ostream     *rows   = options.quiet ? nullptr : &std::cout;
         if (rows != nullptr || scene.output.tables)
           observers.push_back(std::make_unique<report::ConvergenceTable>(tables, rows, log));
+        observers.push_back(std::make_unique<report::MeshReport>(tables, log));
+        observers.push_back(std::make_unique<report::ResultsSummary>(tables, log));
+        if (scene.output.plots)
+          observers.push_back(std::make_unique<report::RunPlots>(directory.path(), log));
         if (scene.output.vtu)
           observers.push_back(
             std::make_unique<report::VtuSeries>(directory.path(), scene.output.stress));
@@ -96,10 +111,11 @@ namespace tetradapt::cli
   } // namespace
 
   void
-  run_scene(const scene::Scene &scene,
-            const std::string  &effective_parameters,
-            const RunOptions   &options,
-            MPI_Comm            communicator)
+  run_scene(const scene::Scene                   &scene,
+            const std::string                    &effective_parameters,
+            const RunOptions                     &options,
+            MPI_Comm                              communicator,
+            const std::vector<adapt::Observer *> &more)
   {
     core::Log                 log;
     core::StageTimer          timer;
@@ -112,8 +128,12 @@ namespace tetradapt::cli
     announce_start(scene, plan, options, communicator, log);
     try
       {
-        const std::vector<adapt::Observer *> observers
-          = first ? watchers->list() : std::vector<adapt::Observer *>();
+        std::vector<adapt::Observer *> observers;
+        if (first)
+          {
+            observers = watchers->list();
+            observers.insert(observers.end(), more.begin(), more.end());
+          }
         adapt::Driver(scene, plan, communicator, log, timer, observers, report::mesh_line).run();
       }
     catch (const std::exception &error)

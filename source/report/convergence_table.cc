@@ -2,7 +2,6 @@
 #include "tetradapt/report/convergence_table.h"
 
 #include "tetradapt/core/atomic_file.h"
-#include "tetradapt/report/record_columns.h"
 
 #include <algorithm>
 #include <ostream>
@@ -11,24 +10,6 @@ namespace tetradapt::report
 {
   namespace
   {
-    /** The cell of a table; @p missing where there is no figure. */
-    std::string
-    format_cell(const RecordColumn       &column,
-                const adapt::CycleRecord &record,
-                const unsigned int        digits,
-                const int                 decimals_of_seconds,
-                const std::string        &missing)
-    {
-      const std::optional<double> value = column.value(record);
-      if (!value)
-        return missing;
-      if (column.kind == RecordColumn::Kind::count)
-        return format_fixed(*value, 0);
-      if (column.kind == RecordColumn::Kind::seconds && decimals_of_seconds >= 0)
-        return format_fixed(*value, decimals_of_seconds);
-      return format_number(*value, digits);
-    }
-
     /** Right-aligned; a text that is too long keeps one blank before it. */
     void
     append_aligned(std::string &line, const std::string &text, const std::size_t width)
@@ -38,72 +19,101 @@ namespace tetradapt::report
       line.append(width - std::min(width, text.size()), ' ');
       line += text;
     }
+
+    using Records = std::vector<adapt::CycleRecord>;
+
+    bool
+    has_value(const RecordColumn &column, const Records &records)
+    {
+      return std::any_of(records.begin(), records.end(), [&](const adapt::CycleRecord &record) {
+        return column.value(record).has_value();
+      });
+    }
+
+    /** The table of the columns of one part that are not empty. */
+    std::string
+    part_table(const std::string               &part,
+               const std::vector<RecordColumn> &columns,
+               const Records                   &records)
+    {
+      std::vector<std::vector<std::string>> rows(records.size() + 1);
+      for (const RecordColumn &column : columns)
+        {
+          const bool first = &column == &columns.front(); // the cycle's number, in every part
+          if (!(first || column.part == part) || !has_value(column, records))
+            continue;
+          rows[0].push_back(column.name);
+          for (std::size_t i = 0; i < records.size(); ++i)
+            rows[i + 1].push_back(format_cell(column.kind, column.value(records[i]), 7, 3, "-"));
+        }
+      return aligned_table(rows);
+    }
   } // namespace
+
+  std::string
+  csv_heading(const std::vector<RecordColumn> &columns)
+  {
+    std::string line;
+    for (const RecordColumn &column : columns)
+      line += (line.empty() ? "" : ",") + column.name;
+    return line;
+  }
+
+  std::string
+  csv_row(const std::vector<RecordColumn> &columns, const adapt::CycleRecord &record)
+  {
+    std::string line;
+    for (const RecordColumn &column : columns)
+      line += (&column == &columns.front() ? "" : ",")
+              + format_cell(column.kind, column.value(record), 10, -1, "");
+    return line;
+  }
 
   std::string
   csv_table(const std::vector<adapt::CycleRecord> &records)
   {
-    const auto &columns = record_columns();
-
-    std::string text;
-    for (const RecordColumn &column : columns)
-      text += (text.empty() ? "" : ",") + std::string(column.name);
-    text += '\n';
+    const auto  columns = record_columns(records);
+    std::string text    = csv_heading(columns) + '\n';
     for (const adapt::CycleRecord &record : records)
-      {
-        std::string line;
-        for (const RecordColumn &column : columns)
-          line
-            += (&column == &columns.front() ? "" : ",") + format_cell(column, record, 10, -1, "");
-        text += line + '\n';
-      }
+      text += csv_row(columns, record) + '\n';
     return text;
   }
 
   std::string
   text_table(const std::vector<adapt::CycleRecord> &records)
   {
-    std::vector<std::string> lines(records.size() + 1);
-    for (const RecordColumn &column : record_columns())
-      {
-        if (std::none_of(records.begin(), records.end(), [&](const adapt::CycleRecord &record) {
-              return column.value(record).has_value();
-            }))
-          continue;
-        std::vector<std::string> cells{column.name};
-        for (const adapt::CycleRecord &record : records)
-          cells.push_back(format_cell(column, record, 7, 3, "-"));
-        std::size_t width = 0;
-        for (const std::string &cell : cells)
-          width = std::max(width, cell.size());
-        for (unsigned int i = 0; i < lines.size(); ++i)
-          append_aligned(lines[i], cells[i], width);
-      }
+    const auto               columns = record_columns(records);
+    std::vector<std::string> parts;
+    for (const RecordColumn &column : columns)
+      if (std::find(parts.begin(), parts.end(), column.part) == parts.end())
+        parts.push_back(column.part);
     std::string text;
-    for (const std::string &line : lines)
-      text += line + '\n';
+    for (const std::string &part : parts)
+      text += (part.empty() ? "" : "\n" + part + "\n") + part_table(part, columns, records);
     return text;
   }
 
   std::string
-  terminal_heading()
+  terminal_heading(const std::vector<TerminalColumn> &columns)
   {
     std::string line;
-    for (const RecordColumn &column : record_columns())
-      if (column.heading != nullptr)
-        append_aligned(line, column.heading, column.width);
+    for (const TerminalColumn &column : columns)
+      append_aligned(line, column.heading, column.width);
     return line;
   }
 
   std::string
-  terminal_row(const adapt::CycleRecord &record)
+  terminal_row(const std::vector<TerminalColumn> &columns, const adapt::CycleRecord &record)
   {
     std::string line;
-    for (const RecordColumn &column : record_columns())
-      if (column.heading != nullptr)
-        append_aligned(line,
-                       format_cell(column, record, column.width >= 11 ? 6 : 4, 2, "-"),
-                       column.width);
+    for (const TerminalColumn &column : columns)
+      append_aligned(line,
+                     format_cell(column.column.kind,
+                                 column.column.value(record),
+                                 column.width >= 11 ? 6 : 4,
+                                 2,
+                                 "-"),
+                     column.width);
     return line;
   }
 
@@ -118,6 +128,7 @@ namespace tetradapt::report
   ConvergenceTable::run_started(const scene::Scene &)
   {
     rows.clear();
+    heading.clear();
   }
 
   void
@@ -127,9 +138,13 @@ namespace tetradapt::report
     if (terminal != nullptr)
       {
         log.progress("");
-        if (rows.size() == 1)
-          *terminal << terminal_heading() << '\n';
-        *terminal << terminal_row(rows.back()) << std::endl;
+        // A figure that comes later (an estimator that needs several cycles) gets a column.
+        const auto        columns     = terminal_columns(rows);
+        const std::string new_heading = terminal_heading(columns);
+        if (new_heading != heading)
+          *terminal << new_heading << '\n';
+        heading = new_heading;
+        *terminal << terminal_row(columns, rows.back()) << std::endl;
       }
     if (!directory.empty())
       {

@@ -93,7 +93,7 @@ namespace tetradapt::report
   {
     if (level == core::LogLevel::progress)
       show_progress(text);
-    else if (!options.quiet || level != core::LogLevel::info)
+    else if (level != core::LogLevel::info || !(options.quiet || options.brief))
       {
         clear_progress();
         stream << label(level) << text << std::endl;

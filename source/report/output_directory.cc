@@ -27,8 +27,16 @@ namespace tetradapt::report
     bool
     is_own_file(const std::string &name, const std::string &scene_name)
     {
-      for (const std::string own :
-           {"convergence.csv", "convergence.txt", "parameters.prm", "log.txt"})
+      for (const std::string own : {"convergence.csv",
+                                    "convergence.txt",
+                                    "results.csv",
+                                    "results.txt",
+                                    "study.csv",
+                                    "study.txt",
+                                    "mesh.csv",
+                                    "size_field.vtu",
+                                    "parameters.prm",
+                                    "log.txt"})
         if (name == own)
           return true;
       if (name == scene_name + ".pvd")
@@ -37,6 +45,23 @@ namespace tetradapt::report
       return name.size() >= 13 && name.compare(0, 6, "cycle_") == 0
              && name.compare(name.size() - 4, 4, ".vtu") == 0
              && is_number(name.substr(6, name.size() - 10));
+    }
+
+    /** Whether a run draws a plot of this name. */
+    bool
+    is_own_plot(const std::string &name)
+    {
+      for (const std::string own : {"convergence_dofs",
+                                    "convergence_seconds",
+                                    "effectivity",
+                                    "ren",
+                                    "ren_tets",
+                                    "goal_dofs",
+                                    "quality",
+                                    "indicators"})
+        if (name == own + ".svg" || name == own + ".gp")
+          return true;
+      return false;
     }
 
     /** The file that @p name is a temporary of (".<file>.<process>.<attempt>.tmp",
@@ -71,6 +96,13 @@ namespace tetradapt::report
           if (is_own_file(name, scene_name) || is_own_file(file_of_temporary(name), scene_name))
             stale.push_back(entry.path());
         }
+      if (fs::is_directory(directory / "plots"))
+        for (const auto &entry : fs::directory_iterator(directory / "plots"))
+          {
+            const std::string name = entry.path().filename().string();
+            if (is_own_plot(name) || is_own_plot(file_of_temporary(name)))
+              stale.push_back(entry.path());
+          }
       return stale;
     }
 
@@ -83,6 +115,7 @@ namespace tetradapt::report
         inputs = scene.mesh.files;
       if (scene.reference.type != scene::ReferenceParameters::Type::none)
         inputs.push_back(scene.reference.file);
+      inputs.push_back(scene.mesh.size_field);
       for (const std::string &input : inputs)
         for (const fs::path &path : stale)
           {
@@ -137,27 +170,51 @@ namespace tetradapt::report
     core::write_file(file("parameters.prm"), content);
   }
 
+  namespace
+  {
+    /** The @p candidates, names and what they are, that exist in @p directory. */
+    std::string
+    list_files(const std::string                                      &directory,
+               const std::vector<std::pair<std::string, std::string>> &candidates)
+    {
+      std::size_t width = 0;
+      for (const auto &[name, what] : candidates)
+        width = std::max(width, directory.size() + 1 + name.size());
+      std::string text = "Files to look at:";
+      for (const auto &[name, what] : candidates)
+        {
+          const std::string file = directory + "/" + name;
+          std::error_code   error;
+          // log.txt gets its name when the run is over.
+          if (fs::exists(file, error) || name == "log.txt")
+            text += "\n  " + file + std::string(width - file.size() + 2, ' ') + what;
+        }
+      return text;
+    }
+  } // namespace
+
   std::string
   OutputDirectory::files_to_look_at() const
   {
-    const std::vector<std::pair<std::string, std::string>> candidates{
-      {"convergence.txt", "the figures of every cycle, for reading"},
-      {"convergence.csv", "the same for a spreadsheet or contrib/plot_convergence"},
-      {scene_name + ".pvd", "all cycles, for ParaView"},
-      {"parameters.prm", "the complete input"},
-      {"log.txt", "what happened when"}};
+    return list_files(directory,
+                      {{"results.txt", "what was found, beside what is known"},
+                       {"convergence.txt", "the figures of every cycle, for reading"},
+                       {"convergence.csv", "the same for a spreadsheet"},
+                       {"mesh.csv", "the meshes: what was asked for, shapes, ids"},
+                       {"plots", "errors, effectivity, shapes as .svg"},
+                       {scene_name + ".pvd", "all cycles, for ParaView"},
+                       {"size_field.vtu", "wanted sizes, for Mesh/Size field of another scene"},
+                       {"parameters.prm", "the complete input"},
+                       {"log.txt", "what happened when"}});
+  }
 
-    std::size_t width = 0;
-    for (const auto &[name, what] : candidates)
-      width = std::max(width, file(name).size());
-    std::string text = "Files to look at:";
-    for (const auto &[name, what] : candidates)
-      {
-        std::error_code error;
-        // log.txt gets its name when the run is over.
-        if (fs::exists(file(name), error) || name == "log.txt")
-          text += "\n  " + file(name) + std::string(width - file(name).size() + 2, ' ') + what;
-      }
-    return text;
+  std::string
+  OutputDirectory::study_files_to_look_at(const std::string &directory)
+  {
+    return list_files(directory,
+                      {{"study.txt", "the last figures of every run"},
+                       {"study.csv", "all figures of all runs, for a spreadsheet"},
+                       {"plots", "all runs as .svg"},
+                       {"parameters.prm", "the complete input"}});
   }
 } // namespace tetradapt::report

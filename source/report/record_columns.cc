@@ -1,113 +1,338 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/report/record_columns.h"
 
-#include <array>
-#include <charconv>
+#include <algorithm>
+#include <cctype>
 
 namespace tetradapt::report
 {
-  const std::vector<RecordColumn> &
-  record_columns()
+  namespace
   {
     using Record = adapt::CycleRecord;
     using Value  = std::optional<double>;
-    constexpr auto count{RecordColumn::Kind::count};
-    constexpr auto figure{RecordColumn::Kind::figure};
-    constexpr auto seconds{RecordColumn::Kind::seconds};
+    using Kind   = RecordColumn::Kind;
 
-    static const std::vector<RecordColumn> columns{
-      {"cycle", "cycle", 5, count, [](const Record &r) -> Value { return r.cycle; }},
-      {"points", "points", 8, count, [](const Record &r) -> Value { return r.points; }},
-      {"tets", "tets", 8, count, [](const Record &r) -> Value { return r.tets; }},
-      {"dofs", "dofs", 9, count, [](const Record &r) -> Value { return r.dofs; }},
-      {"mean_ren", "mean REN", 9, figure, [](const Record &r) { return r.mean_ren; }},
-      {"max_ren", "max REN", 9, figure, [](const Record &r) { return r.max_ren; }},
-      {"relative_l2_error",
-       "rel L2",
-       9,
-       figure,
-       [](const Record &r) { return r.relative_l2_error; }},
-      {"relative_energy_error",
-       "rel energy",
-       10,
-       figure,
-       [](const Record &r) { return r.relative_energy_error; }},
-      {"estimate", "estimate", 9, figure, [](const Record &r) { return r.estimate; }},
-      {"effectivity", "effect.", 7, figure, [](const Record &r) { return r.effectivity; }},
-      {"strain_energy",
-       "strain en.",
-       11,
-       figure,
-       [](const Record &r) -> Value { return r.strain_energy; }},
-      {"max_displacement",
-       "max displ.",
-       10,
-       figure,
-       [](const Record &r) -> Value { return r.max_displacement; }},
-      {"seconds_mesh",
-       "mesh s",
-       7,
-       seconds,
-       [](const Record &r) -> Value { return r.seconds_mesh; }},
-      {"seconds_solve",
-       "solve s",
-       7,
-       seconds,
-       [](const Record &r) -> Value { return r.seconds_solve; }},
-      {"seconds_estimate",
-       "est. s",
-       7,
-       seconds,
-       [](const Record &r) -> Value { return r.seconds_estimate; }},
-      {"seconds_total",
-       "total s",
-       7,
-       seconds,
-       [](const Record &r) -> Value { return r.seconds_total; }},
-      {"l2_error", nullptr, 0, figure, [](const Record &r) { return r.l2_error; }},
-      {"h1_error", nullptr, 0, figure, [](const Record &r) { return r.h1_error; }},
-      {"relative_h1_error",
-       nullptr,
-       0,
-       figure,
-       [](const Record &r) { return r.relative_h1_error; }},
-      {"energy_error", nullptr, 0, figure, [](const Record &r) { return r.energy_error; }},
-      {"relative_estimate",
-       nullptr,
-       0,
-       figure,
-       [](const Record &r) { return r.relative_estimate; }},
-      {"reference_error",
-       "ref. err.",
-       9,
-       figure,
-       [](const Record &r) { return r.reference_error; }},
-      {"iterations", nullptr, 0, count, [](const Record &r) -> Value { return r.iterations; }}};
-    return columns;
-  }
-
-  namespace
-  {
-    std::string
-    format(const double value, const std::chars_format style, const unsigned int precision)
+    const std::vector<RecordColumn> &
+    fixed_columns()
     {
-      // Fixed style writes up to 309 digits before the point.
-      std::array<char, 400> text;
-      const auto            end
-        = std::to_chars(text.data(), text.data() + text.size(), value, style, precision).ptr;
-      return std::string(text.data(), end);
+      static const std::vector<RecordColumn> columns{
+        {"cycle", Kind::count, [](const Record &r) -> Value { return r.cycle; }, ""},
+        {"points", Kind::count, [](const Record &r) -> Value { return r.points; }, ""},
+        {"tets", Kind::count, [](const Record &r) -> Value { return r.tets; }, ""},
+        {"dofs", Kind::count, [](const Record &r) -> Value { return r.dofs; }, ""},
+        {"mean_ren", Kind::figure, [](const Record &r) { return r.mean_ren; }, ""},
+        {"max_ren", Kind::figure, [](const Record &r) { return r.max_ren; }, ""},
+        {"relative_l2_error",
+         Kind::figure,
+         [](const Record &r) { return r.relative_l2_error; },
+         ""},
+        {"relative_energy_error",
+         Kind::figure,
+         [](const Record &r) { return r.relative_energy_error; },
+         ""},
+        {"estimate", Kind::figure, [](const Record &r) { return r.estimate; }, ""},
+        {"effectivity", Kind::figure, [](const Record &r) { return r.effectivity; }, ""},
+        {"strain_energy",
+         Kind::figure,
+         [](const Record &r) -> Value { return r.strain_energy; },
+         ""},
+        {"max_displacement",
+         Kind::figure,
+         [](const Record &r) -> Value { return r.max_displacement; },
+         ""},
+        {"seconds_mesh",
+         Kind::seconds,
+         [](const Record &r) -> Value { return r.seconds_mesh; },
+         ""},
+        {"seconds_solve",
+         Kind::seconds,
+         [](const Record &r) -> Value { return r.seconds_solve; },
+         ""},
+        {"seconds_estimate",
+         Kind::seconds,
+         [](const Record &r) -> Value { return r.seconds_estimate; },
+         ""},
+        {"seconds_total",
+         Kind::seconds,
+         [](const Record &r) -> Value { return r.seconds_total; },
+         ""},
+        {"l2_error", Kind::figure, [](const Record &r) { return r.l2_error; }, ""},
+        {"h1_error", Kind::figure, [](const Record &r) { return r.h1_error; }, ""},
+        {"relative_h1_error",
+         Kind::figure,
+         [](const Record &r) { return r.relative_h1_error; },
+         ""},
+        {"energy_error", Kind::figure, [](const Record &r) { return r.energy_error; }, ""},
+        {"relative_estimate",
+         Kind::figure,
+         [](const Record &r) { return r.relative_estimate; },
+         ""},
+        {"reference_error", Kind::figure, [](const Record &r) { return r.reference_error; }, ""},
+        {"iterations", Kind::count, [](const Record &r) -> Value { return r.iterations; }, ""},
+        {"energy", Kind::figure, [](const Record &r) -> Value { return r.energy; }, ""},
+        {"accepted",
+         Kind::count,
+         [](const Record &r) -> Value { return r.acceptance == adapt::Acceptance::accepted; },
+         ""}};
+      return columns;
+    }
+
+    /** The texts of an estimator or goal as a part of a column's name. */
+    std::string
+    name_part(const std::string &text)
+    {
+      std::string name;
+      for (const unsigned char c : text)
+        name += c >= 128 || std::isalnum(c) || c == '-' || c == '.' ? char(c) : '_';
+      return name;
+    }
+
+    /** The entry called @p name in a list of records; null if there is none. */
+    template <typename Entry>
+    const Entry *
+    find(const std::vector<Entry> &entries, const std::string &name)
+    {
+      const auto found = std::find_if(entries.begin(), entries.end(), [&](const Entry &entry) {
+        return entry.name == name;
+      });
+      return found == entries.end() ? nullptr : &*found;
+    }
+
+    /** Names of all entries of a list of the records, in the order in which they come. */
+    template <typename Entry>
+    std::vector<std::string>
+    names_of(const std::vector<Record> &records, const std::vector<Entry> Record::*list)
+    {
+      std::vector<std::string> names;
+      for (const Record &record : records)
+        for (const Entry &entry : record.*list)
+          if (std::find(names.begin(), names.end(), entry.name) == names.end())
+            names.push_back(entry.name);
+      return names;
+    }
+
+    /** A column of what @p member is in the entry called @p name of a list. */
+    template <typename Entry, typename Member>
+    RecordColumn
+    column_of(const std::vector<Entry> Record::*list,
+              const std::string                &name,
+              const Member Entry::*member,
+              const std::string   &column_name,
+              const std::string   &part,
+              const Kind           kind = Kind::figure)
+    {
+      return {column_name,
+              kind,
+              [=](const Record &r) -> Value {
+                const Entry *entry = find(r.*list, name);
+                return entry == nullptr ? Value() : Value(entry->*member);
+              },
+              part};
+    }
+
+    void
+    add_estimator(const std::string &name, std::vector<RecordColumn> &columns)
+    {
+      using Entry            = adapt::EstimateRecord;
+      const auto        list = &Record::estimates;
+      const std::string end  = "_" + name_part(name);
+      const std::string part = "estimator " + name;
+      const auto        add  = [&](const std::string &start, const auto member, const Kind kind) {
+        columns.push_back(column_of<Entry>(list, name, member, start + end, part, kind));
+      };
+      add("estimate", &Entry::global, Kind::figure);
+      add("relative_estimate", &Entry::relative, Kind::figure);
+      add("effectivity", &Entry::effectivity, Kind::figure);
+      add("spread", &Entry::spread, Kind::figure);
+      add("seconds", &Entry::seconds, Kind::seconds);
+    }
+
+    void
+    add_goal(const std::string &name, std::vector<RecordColumn> &columns)
+    {
+      using Entry             = adapt::GoalRecord;
+      const auto        list  = &Record::goals;
+      const std::string start = "goal_" + name_part(name);
+      const std::string part  = "goal " + name;
+      const auto        add   = [&](const std::string &end, const auto member) {
+        columns.push_back(column_of<Entry>(list, name, member, start + end, part));
+      };
+      add("", &Entry::value);
+      add("_exact", &Entry::exact);
+      add("_error", &Entry::error);
+      add("_estimated_error", &Entry::estimated_error);
+      add("_effectivity", &Entry::effectivity);
+    }
+
+    void
+    add_solver(std::vector<RecordColumn> &columns)
+    {
+      columns.push_back({"iterations_to_tolerance",
+                         Kind::count,
+                         [](const Record &r) {
+                           return r.iterations_to_tolerance > 0 ? Value(r.iterations_to_tolerance)
+                                                                : Value();
+                         },
+                         "solver"});
+      columns.push_back({"algebraic_error",
+                         Kind::figure,
+                         [](const Record &r) { return r.algebraic_error; },
+                         "solver"});
+    }
+
+    /** @p with_projection: whether points were moved to a curved boundary. */
+    void
+    add_mesh(const bool with_projection, std::vector<RecordColumn> &columns)
+    {
+      const auto add = [&](const std::string &name, const Kind kind, const auto member) {
+        columns.push_back({name,
+                           kind,
+                           [member](const Record &r) -> Value {
+                             // No tetrahedron has zero degrees only: nothing was reported.
+                             return r.mesh.max_dihedral > 0. ? Value(r.mesh.*member) : Value();
+                           },
+                           "mesh"});
+      };
+      using Mesh = adapt::MeshRecord;
+      columns.push_back({"requested_tets",
+                         Kind::figure,
+                         [](const Record &r) { return r.mesh.requested_tets; },
+                         "mesh"});
+      add("unmet_sizes", Kind::count, &Mesh::unmet_sizes);
+      add("volume_drift", Kind::figure, &Mesh::volume_drift);
+      if (with_projection)
+        {
+          add("largest_projection", Kind::figure, &Mesh::largest_projection);
+          add("unprojected", Kind::count, &Mesh::unprojected);
+        }
+      add("min_dihedral", Kind::figure, &Mesh::min_dihedral);
+      add("max_dihedral", Kind::figure, &Mesh::max_dihedral);
+      add("max_aspect_ratio", Kind::figure, &Mesh::max_aspect_ratio);
+    }
+
+    bool
+    has_value(const RecordColumn &column, const std::vector<Record> &records)
+    {
+      return std::any_of(records.begin(), records.end(), [&](const Record &record) {
+        return column.value(record).has_value();
+      });
+    }
+
+    /** Different names that read alike once blanks are underscores get numbers. */
+    void
+    make_names_unique(std::vector<RecordColumn> &columns)
+    {
+      for (std::size_t i = 0; i < columns.size(); ++i)
+        {
+          const std::string name = columns[i].name;
+          for (unsigned int number = 2; std::any_of(columns.begin(),
+                                                    columns.begin() + i,
+                                                    [&](const RecordColumn &other) {
+                                                      return other.name == columns[i].name;
+                                                    });
+               ++number)
+            columns[i].name = name + "_" + std::to_string(number);
+        }
     }
   } // namespace
 
-  std::string
-  format_number(const double value, const unsigned int digits)
+  std::vector<RecordColumn>
+  record_columns(const std::vector<adapt::CycleRecord> &records)
   {
-    return format(value, std::chars_format::general, digits);
+    std::vector<RecordColumn> more;
+    add_solver(more);
+    for (const auto &name : names_of<adapt::EstimateRecord>(records, &Record::estimates))
+      add_estimator(name, more);
+    for (const auto &name : names_of<adapt::GoalRecord>(records, &Record::goals))
+      add_goal(name, more);
+    add_mesh(std::any_of(records.begin(),
+                         records.end(),
+                         [](const Record &r) {
+                           return r.mesh.largest_projection > 0. || r.mesh.unprojected > 0;
+                         }),
+             more);
+
+    std::vector<RecordColumn> columns = fixed_columns();
+    std::copy_if(more.begin(),
+                 more.end(),
+                 std::back_inserter(columns),
+                 [&](const RecordColumn &column) { return has_value(column, records); });
+    make_names_unique(columns);
+    return columns;
   }
 
-  std::string
-  format_fixed(const double value, const unsigned int decimals)
+  std::vector<TerminalColumn>
+  terminal_columns(const std::vector<adapt::CycleRecord> &records)
   {
-    return format(value, std::chars_format::fixed, decimals);
+    const auto &fixed = fixed_columns();
+    const auto  named = [&](const std::string &name) {
+      return *std::find_if(fixed.begin(), fixed.end(), [&](const RecordColumn &column) {
+        return column.name == name;
+      });
+    };
+    std::vector<TerminalColumn> columns{{"cycle", 5, named("cycle")},
+                                        {"points", 8, named("points")},
+                                        {"tets", 8, named("tets")},
+                                        {"dofs", 9, named("dofs")},
+                                        {"mean REN", 9, named("mean_ren")},
+                                        {"max REN", 9, named("max_ren")},
+                                        {"rel L2", 9, named("relative_l2_error")},
+                                        {"rel energy", 10, named("relative_energy_error")}};
+    // What drives, else what every cycle computes: for an energy norm its relative value.
+    const auto estimators = names_of<adapt::EstimateRecord>(records, &Record::estimates);
+    if (estimators.empty())
+      {
+        columns.push_back({"estimate", 9, named("relative_estimate")});
+        columns.push_back({"effect.", 7, named("effectivity")});
+      }
+    else
+      {
+        const std::string name    = estimators.front();
+        const std::string heading = name.size() > 14 ? "estimate" : name;
+        const unsigned    width   = std::max<unsigned>(9, heading.size());
+        columns.push_back({heading,
+                           width,
+                           {name,
+                            Kind::figure,
+                            [name](const Record &r) -> Value {
+                              const auto *entry = find(r.estimates, name);
+                              if (entry == nullptr)
+                                return {};
+                              return entry->relative ? entry->relative : Value(entry->global);
+                            },
+                            ""}});
+        columns.push_back(
+          {"effect.",
+           7,
+           column_of<adapt::EstimateRecord>(
+             &Record::estimates, name, &adapt::EstimateRecord::effectivity, "effectivity", "")});
+      }
+    const auto goals = names_of<adapt::GoalRecord>(records, &Record::goals);
+    if (!goals.empty())
+      columns.push_back({goals.front().size() > 14 ? "goal" : goals.front(),
+                         std::max<unsigned>(11, std::min<std::size_t>(goals.front().size(), 14)),
+                         column_of<adapt::GoalRecord>(
+                           &Record::goals, goals.front(), &adapt::GoalRecord::value, "goal", "")});
+    columns.push_back({"solve s", 7, named("seconds_solve")});
+    columns.push_back({"total s", 7, named("seconds_total")});
+    columns.push_back({"ref. err.", 9, named("reference_error")});
+    columns.erase(std::remove_if(columns.begin(),
+                                 columns.end(),
+                                 [&](const TerminalColumn &column) {
+                                   return !has_value(column.column, records);
+                                 }),
+                  columns.end());
+    return columns;
+  }
+
+  const std::array<unsigned int, 8> dihedral_class_begins{{0, 5, 10, 20, 30, 40, 50, 60}};
+
+  std::string
+  dihedral_class_name(const unsigned int number)
+  {
+    const auto &begins = dihedral_class_begins;
+    return number + 1 == begins.size() ? "dihedral_from_" + std::to_string(begins[number])
+                                       : "dihedral_" + std::to_string(begins[number]) + "_to_"
+                                           + std::to_string(begins[number + 1]);
   }
 } // namespace tetradapt::report

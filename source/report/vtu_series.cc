@@ -109,7 +109,7 @@ namespace tetradapt::report
       }
     writer.add_boundary();
     writer.add_text("scene", scene_name);
-    for (const RecordColumn &column : record_columns())
+    for (const RecordColumn &column : record_columns({event.record}))
       if (const auto value = column.value(event.record))
         writer.add_value(column.name, *value);
     writer.write(path);

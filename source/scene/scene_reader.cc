@@ -85,17 +85,17 @@ namespace tetradapt::scene
           }
         for (std::size_t i = 0; i < path.size(); ++i)
           prm.leave_subsection();
-        scene.places[whole]    = place.text();
-        files_of_places[whole] = place.line == 0 ? "" : place.file;
+        scene.places[whole]     = place.text();
+        places_of_values[whole] = place;
       }
 
       /** Sets a "Section/Name=value" of the command line. */
       void
       set_override(const std::string &text)
       {
-        const Place place{"command line", 0};
-        const auto  equals = text.find('=');
-        SectionPath path   = split(text.substr(0, equals), '/');
+        const Place       place{"command line", 0};
+        const auto        equals = text.find('=');
+        const SectionPath path   = split(text.substr(0, equals), '/');
         if (equals == std::string::npos || path.empty()
             || std::count(path.begin(), path.end(), "") > 0)
           refuse(place, "'" + text + "' is incomplete. Write --set 'Section/Name=value'.");
@@ -106,6 +106,52 @@ namespace tetradapt::scene
                  "'" + value
                    + "' has a character that a parameter file cannot hold: #, a line end, or a "
                      "backslash in the end. Remove it.");
+        set_existing(path, value, place);
+      }
+
+      /** Sets what @p variation varies to the values of its case @p number, as if they
+       * were written in the file where its Values are. */
+      void
+      set_case(const VariationParameters &variation, const unsigned int number)
+      {
+        const std::string start = "Study/" + variation.name + "/";
+        for (std::size_t i = 0; i < variation.parameters.size(); ++i)
+          {
+            const std::string &name      = variation.parameters[i];
+            const SectionPath  path      = split(name, '/');
+            const auto [other, is_first] = owners.emplace(full_name(path), variation.name);
+            const Place names            = places_of_values.at(start + "Parameters");
+            if (!is_first)
+              refuse(names,
+                     start + "Parameters: " + name + " is varied by Study/" + other->second
+                       + ", too. Remove one of the two.");
+            if (std::count(path.begin(), path.end(), "") > 0)
+              refuse(names,
+                     start + "Parameters: '" + name
+                       + "' is no full name of a parameter, "
+                         "such as Adaptivity/Driver.");
+            const Place place = places_of_values.at(start + "Values");
+            lines.erase(place.file + "\n" + full_name(path)); // setting it again is meant
+            set_existing(path, variation.cases[number][i], place);
+          }
+      }
+
+      /** The folder that relative names of files in @p parameter count from. */
+      fs::path
+      folder_of(const std::string &parameter) const
+      {
+        const auto entry = places_of_values.find(parameter);
+        return entry == places_of_values.end() || entry->second.line == 0
+                 ? fs::path()
+                 : fs::path(entry->second.file).parent_path();
+      }
+
+    private:
+      /** Sets the parameter whose section and name @p path holds; its section must be in
+       * the file. */
+      void
+      set_existing(SectionPath path, const std::string &value, const Place &place)
+      {
         const std::string name = path.back();
         path.pop_back();
         for (std::size_t n = 1; n <= path.size(); ++n)
@@ -113,15 +159,6 @@ namespace tetradapt::scene
         set(path, name, value, place);
       }
 
-      /** The folder that relative names of files in @p parameter count from. */
-      fs::path
-      folder_of(const std::string &parameter) const
-      {
-        const auto entry = files_of_places.find(parameter);
-        return entry == files_of_places.end() ? fs::path() : fs::path(entry->second).parent_path();
-      }
-
-    private:
       /** The declared section at @p path, whose names have been checked. */
       const SectionTree *
       find(const SectionPath &path) const
@@ -224,7 +261,8 @@ namespace tetradapt::scene
       dealii::ParameterHandler           &prm;
       SectionTree                         valid;
       std::map<std::string, unsigned int> lines; ///< of "file\nparameter"
-      std::map<std::string, std::string>  files_of_places;
+      std::map<std::string, Place>        places_of_values;
+      std::map<std::string, std::string>  owners; ///< variation of each parameter that varies
     };
 
     std::string
@@ -237,21 +275,61 @@ namespace tetradapt::scene
     }
   } // namespace
 
-  Scene
-  read_scene(const std::string &file, const std::vector<std::string> &overrides)
+  namespace
   {
-    Scene scene;
-    scene.file = file;
-    scene.name = fs::path(file).stem().string();
-    dealii::ParameterHandler prm;
-    declare(scene, prm);
-    SceneSink sink(scene, prm);
-    read_prm(file, sink);
-    for (const auto &text : overrides)
-      sink.set_override(text);
-    try
-      {
+    /** Calls @p action; an error gets the place at which the user wrote what is to blame. */
+    template <typename Action>
+    void
+    with_places(const Scene &scene, const Action &action)
+    {
+      try
+        {
+          action();
+        }
+      catch (const core::InputError &error)
+        {
+          const std::string placed = scene.with_place(error.what());
+          throw core::InputError(placed == error.what() ? scene.file + ": " + placed : placed);
+        }
+    }
+
+    /** What the study varies, as the file and the command line say so far. */
+    std::vector<VariationParameters>
+    read_variations(const Scene &scene, dealii::ParameterHandler &prm)
+    {
+      Scene whole = scene;
+      with_places(scene, [&] {
+        parse(whole, prm);
+        for (const auto &variation : whole.variations)
+          variation.check();
+      });
+      return whole.variations;
+    }
+
+    Scene
+    read(const std::string               &file,
+         const std::vector<std::string>  &overrides,
+         const std::vector<unsigned int> &cases)
+    {
+      Scene scene;
+      scene.file = file;
+      scene.name = fs::path(file).stem().string();
+      dealii::ParameterHandler prm;
+      declare(scene, prm);
+      SceneSink sink(scene, prm);
+      read_prm(file, sink);
+      for (const auto &text : overrides)
+        sink.set_override(text);
+      if (!cases.empty())
+        {
+          const auto variations = read_variations(scene, prm);
+          for (std::size_t i = 0; i < cases.size(); ++i)
+            sink.set_case(variations.at(i), cases[i]);
+        }
+      with_places(scene, [&] {
         parse(scene, prm);
+        if (!cases.empty())
+          scene.variations.clear();
         for (auto &name : scene.mesh.files)
           name = absolute(name, sink.folder_of("Mesh/Files"));
         scene.mesh.size_field = absolute(scene.mesh.size_field, sink.folder_of("Mesh/Size field"));
@@ -259,12 +337,22 @@ namespace tetradapt::scene
           = absolute(scene.mesh.projection_file, sink.folder_of("Mesh/Projection file"));
         scene.reference.file = absolute(scene.reference.file, sink.folder_of("Reference/File"));
         scene.check();
-      }
-    catch (const core::InputError &error)
-      {
-        const std::string placed = scene.with_place(error.what());
-        throw core::InputError(placed == error.what() ? file + ": " + placed : placed);
-      }
-    return scene;
+      });
+      return scene;
+    }
+  } // namespace
+
+  Scene
+  read_scene(const std::string &file, const std::vector<std::string> &overrides)
+  {
+    return read(file, overrides, {});
+  }
+
+  Scene
+  read_study_run(const std::string               &file,
+                 const std::vector<std::string>  &overrides,
+                 const std::vector<unsigned int> &cases)
+  {
+    return read(file, overrides, cases);
   }
 } // namespace tetradapt::scene

@@ -90,8 +90,8 @@ namespace tetradapt::adapt
    * the tolerances that are set are all reached, with a reference that is better
    * than what it measures; the scene's meshes are done; saturation; a mesh as
    * fine as the reference's; limits on cycles, tetrahedra, unknowns and time; no
-   * new tetrahedra. Saturation and the reference's size never cut a list of
-   * meshes short, nor a uniform study whose true error is known: they are
+   * new tetrahedra. Saturation does not end a run without a safeguard; it and the reference's
+   * size never cut a list of meshes short, nor a uniform study whose true error is known: they are
    * warnings there.
    *
    * The error held against the tolerance is the true one where it is known, else

@@ -5,6 +5,9 @@
 #include "tetradapt/cli/options.h"
 #include "tetradapt/scene/scene.h"
 
+#include <string>
+#include <vector>
+
 namespace tetradapt::cli
 {
   /**
@@ -16,6 +19,30 @@ namespace tetradapt::cli
    */
   scene::Scene
   load_scene(const std::string &file, const Options &options);
+
+  /** One run of a study. */
+  struct StudyRun
+  {
+    scene::Scene              scene; ///< without variations, with a directory of its own
+    std::vector<unsigned int> cases; ///< of each variation
+    std::string               name;  ///< "03-ren-1.2": number and labels, its folder
+    std::string               label; ///< "ren, 1.2": for people
+  };
+
+  /**
+   * Reads all runs of a study, the last variation changing fastest. Each writes to a folder
+   * with its name in that of the study.
+   * @param study what load_scene() made of the study's file.
+   * @throws InputError for the first run that is not valid, with the line of the values
+   *         that are to blame.
+   */
+  std::vector<StudyRun>
+  load_study(const scene::Scene &study, const Options &options);
+
+  /** How a case of a variation is called: by its label, else by the variation's name and
+   * its values. */
+  std::string
+  case_label(const scene::VariationParameters &variation, unsigned int number);
 } // namespace tetradapt::cli
 
 #endif

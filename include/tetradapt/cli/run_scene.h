@@ -2,11 +2,13 @@
 #ifndef tetradapt_cli_run_scene_h
 #define tetradapt_cli_run_scene_h
 
+#include "tetradapt/adapt/observer.h"
 #include "tetradapt/scene/scene.h"
 
 #include <mpi.h>
 
 #include <string>
+#include <vector>
 
 namespace tetradapt::cli
 {
@@ -14,6 +16,7 @@ namespace tetradapt::cli
   struct RunOptions
   {
     bool        quiet = false; ///< only warnings and errors on stderr, nothing on stdout
+    bool        brief = false; ///< nothing but progress, warnings and errors on stderr
     std::string command_line;  ///< as it was typed, for the log
   };
 
@@ -23,15 +26,17 @@ namespace tetradapt::cli
    *
    * @param scene a scene that scene::read_scene() returned.
    * @param effective_parameters its complete input, for output/parameters.prm.
+   * @param more observers beside those that the scene asks for; told on the first rank.
    * @throws InputError, NumericalError. Errors that concern all ranks are thrown
    *         on all ranks; the caller prints them (once), adds the place of the
    *         parameter (scene::Scene::with_place()) and sets the exit code.
    */
   void
-  run_scene(const scene::Scene &scene,
-            const std::string  &effective_parameters,
-            const RunOptions   &options,
-            MPI_Comm            communicator);
+  run_scene(const scene::Scene                   &scene,
+            const std::string                    &effective_parameters,
+            const RunOptions                     &options,
+            MPI_Comm                              communicator,
+            const std::vector<adapt::Observer *> &more = {});
 } // namespace tetradapt::cli
 
 #endif

@@ -4,6 +4,7 @@
 
 #include "tetradapt/adapt/observer.h"
 #include "tetradapt/core/log.h"
+#include "tetradapt/report/record_columns.h"
 
 #include <iosfwd>
 #include <string>
@@ -11,30 +12,36 @@
 
 namespace tetradapt::report
 {
-  /**
-   * convergence.csv: a header row with the names of record_columns(), then one row
-   * a cycle, 10 significant digits, nothing between the commas where a scene does
-   * not have a figure.
-   */
+  /** The names of @p columns, separated by commas. */
+  std::string
+  csv_heading(const std::vector<RecordColumn> &columns);
+
+  /** The figures of a cycle, separated by commas: 10 significant digits, nothing where
+   * there is no figure. */
+  std::string
+  csv_row(const std::vector<RecordColumn> &columns, const adapt::CycleRecord &record);
+
+  /** convergence.csv: a header row with the names of record_columns(), then one row
+   * a cycle. */
   std::string
   csv_table(const std::vector<adapt::CycleRecord> &records);
 
   /**
-   * The same as a table aligned for reading: 7 significant digits, seconds with
+   * The same as tables aligned for reading, one for the cycles as such and one for each
+   * estimator, each goal and the mesh: 7 significant digits, seconds with
    * three decimals, "-" for a figure that is missing. A column that is empty in
    * every row is left out.
    */
   std::string
   text_table(const std::vector<adapt::CycleRecord> &records);
 
-  /** The heading of the terminal's table, which has the main columns only; without
-   * an end of line. */
+  /** The heading of the terminal's table, without an end of line. */
   std::string
-  terminal_heading();
+  terminal_heading(const std::vector<TerminalColumn> &columns);
 
-  /** One row of the terminal's table; without an end of line. */
+  /** One row of the terminal's table, without an end of line. */
   std::string
-  terminal_row(const adapt::CycleRecord &record);
+  terminal_row(const std::vector<TerminalColumn> &columns, const adapt::CycleRecord &record);
 
   /**
    * Writes the figures of every cycle: to a stream as they come, and after each
@@ -72,6 +79,7 @@ namespace tetradapt::report
     std::ostream                   *terminal;
     const core::Log                &log;
     std::vector<adapt::CycleRecord> rows;
+    std::string                     heading; ///< the last one printed
   };
 } // namespace tetradapt::report
 

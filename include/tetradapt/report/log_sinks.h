@@ -25,6 +25,8 @@ namespace tetradapt::report
       bool is_terminal = false;
       /** Warnings and errors only. */
       bool quiet = false;
+      /** No information, but progress, warnings and errors. */
+      bool brief = false;
       /** Longer progress lines are cut. */
       unsigned int width = 80;
       /** Progress that differs from the line before only in its numbers and comes

@@ -12,9 +12,9 @@ namespace tetradapt::report
    * The directory that a run writes to: made if it is missing, checked to be
    * writable, and free of what an earlier run of the scene left, so that the
    * files of two runs are never mixed. Only files that this program writes are
-   * removed: cycle_NNN.vtu, <scene>.pvd, convergence.csv, convergence.txt and
-   * log.txt, and temporary files that a killed run has left of those;
-   * parameters.prm is replaced.
+   * removed: cycle_NNN.vtu, <scene>.pvd, size_field.vtu, log.txt, the tables convergence,
+   * study, results (.csv, .txt) and mesh.csv, temporary files that a killed run has left
+   * of those, and the plots; parameters.prm is replaced.
    */
   class OutputDirectory
   {
@@ -53,6 +53,10 @@ namespace tetradapt::report
      * it is. */
     std::string
     files_to_look_at() const;
+
+    /** The same after a study that wrote to @p directory. */
+    static std::string
+    study_files_to_look_at(const std::string &directory);
 
   private:
     std::string directory;

@@ -4,6 +4,7 @@
 
 #include "tetradapt/adapt/observer.h"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,7 +12,7 @@
 namespace tetradapt::report
 {
   /** One figure of a cycle: how it is named and where it is found. All tables and
-   * the field data of the .vtu files are made from one list of these. */
+   * the field data of the .vtu files are made from lists of these. */
   struct RecordColumn
   {
     enum class Kind
@@ -20,18 +21,46 @@ namespace tetradapt::report
       figure, ///< any number
       seconds ///< a time
     };
-    const char *name; ///< in convergence.csv
-    /** Short heading in the terminal's table; null: not shown there. */
-    const char  *heading;
-    unsigned int width; ///< characters in the terminal's table
-    Kind         kind;
-    /** The figure; empty where the scene does not have it. */
-    std::optional<double> (*value)(const adapt::CycleRecord &);
+    std::string name; ///< in convergence.csv: letters, digits, '_', '-', '.' only
+    Kind        kind = Kind::figure;
+    /** The figure; empty where a cycle does not have it. */
+    std::function<std::optional<double>(const adapt::CycleRecord &)> value;
+    /** What the figure is about, for tables in parts: "estimator spr", "goal tip", "mesh";
+     * empty: the cycle as a whole. */
+    std::string part;
   };
 
-  /** All figures of a CycleRecord in the order of convergence.csv. */
-  const std::vector<RecordColumn> &
-  record_columns();
+  /**
+   * The columns of convergence.csv for the cycles of one run or of several. First those
+   * that every run has, in an order that does not change; then whatever a cycle has: of
+   * each estimator estimate_<name>, relative_estimate_<name>, effectivity_<name>,
+   * spread_<name> and seconds_<name>, of each goal goal_<name>, goal_<name>_exact, _error,
+   * _estimated_error and _effectivity, and of the mesh what was asked for and what came of
+   * it. Of the latter, a column is there if a record has a figure for it.
+   */
+  std::vector<RecordColumn>
+  record_columns(const std::vector<adapt::CycleRecord> &records);
+
+  /** A column of the terminal's table. */
+  struct TerminalColumn
+  {
+    std::string  heading;
+    unsigned int width = 0; ///< characters
+    RecordColumn column;
+  };
+
+  /** The few figures that a user watches, as far as the records have them: sizes, errors,
+   * the driving estimator and its effectivity, the first goal, the time. */
+  std::vector<TerminalColumn>
+  terminal_columns(const std::vector<adapt::CycleRecord> &records);
+
+  /** Lower ends in degrees of the classes of MeshRecord::dihedral_histogram. */
+  extern const std::array<unsigned int, 8> dihedral_class_begins;
+
+  /** "dihedral_0_to_5", ..., "dihedral_from_60": the classes of
+   * MeshRecord::dihedral_histogram. */
+  std::string
+  dihedral_class_name(unsigned int number);
 
   /**
    * @p value with @p digits significant digits, without trailing zeros ("%.{digits}g",
@@ -43,6 +72,26 @@ namespace tetradapt::report
   /** @p value with @p decimals digits after the point. */
   std::string
   format_fixed(double value, unsigned int decimals);
+
+  /** The cell of a table: counts without a point, figures with @p digits significant
+   * digits, seconds with @p decimals_of_seconds (negative: as figures); @p missing if there
+   * is no value. */
+  std::string
+  format_cell(RecordColumn::Kind           kind,
+              const std::optional<double> &value,
+              unsigned int                 digits,
+              int                          decimals_of_seconds,
+              const std::string           &missing);
+
+  /** A cell of a .csv file with any text: in quotation marks if it needs them. */
+  std::string
+  csv_text(const std::string &text);
+
+  /** Rows of cells, the first one a heading, as lines; each column as wide as its widest
+   * cell (counted in characters of UTF-8) and right-aligned, the first @p n_left columns
+   * left-aligned. Ends with a line end. */
+  std::string
+  aligned_table(const std::vector<std::vector<std::string>> &rows, unsigned int n_left = 0);
 } // namespace tetradapt::report
 
 #endif

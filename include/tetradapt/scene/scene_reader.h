@@ -26,6 +26,21 @@ namespace tetradapt::scene
    */
   Scene
   read_scene(const std::string &file, const std::vector<std::string> &overrides = {});
+
+  /**
+   * One run of a study: reads a scene as read_scene() does, with the parameters that its
+   * Scene::variations name set to the values of one case each, as if these values stood in the
+   * file where the case is written; they win over everything else. The scene that comes
+   * back has no variations.
+   *
+   * @param cases for each variation the number of the case.
+   * @throws InputError "file:line: ...", the line being that of the study's values if these
+   *         are to blame.
+   */
+  Scene
+  read_study_run(const std::string               &file,
+                 const std::vector<std::string>  &overrides,
+                 const std::vector<unsigned int> &cases);
 } // namespace tetradapt::scene
 
 #endif

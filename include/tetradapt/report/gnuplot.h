@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_report_gnuplot_h
+#define tetradapt_report_gnuplot_h
+
+#include "tetradapt/core/log.h"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+/** Pictures by gnuplot, which is a program of its own and may be missing. */
+namespace tetradapt::report
+{
+  /** A curve of a LinePlot. */
+  struct PlotCurve
+  {
+    std::string                        label;
+    std::vector<std::array<double, 2>> points;
+    unsigned int                       colour  = 0;     ///< curves of one number have one colour
+    unsigned int                       pattern = 0;     ///< ... one kind of line and point
+    bool                               steps   = false; ///< a histogram's outline
+  };
+
+  /** What theory says of the slope of a logarithmic plot, drawn as a triangle. */
+  struct PlotSlope
+  {
+    double      exponent = -1.; ///< negative
+    std::string label;          ///< gnuplot's enhanced text: "N^{-1/3}"
+  };
+
+  /** Curves over a plane. Points that a logarithmic axis cannot show, and those that are
+   * not finite, are left out. */
+  struct LinePlot
+  {
+    std::string            title, x_label, y_label;
+    bool                   logarithmic_x = false, logarithmic_y = false;
+    bool                   whole_x = false; ///< ticks at whole numbers only
+    std::vector<PlotCurve> curves;
+    std::vector<PlotSlope> slopes;      ///< on two logarithmic axes only
+    std::optional<double>  level;       ///< a horizontal line that curves should meet
+    std::string            explanation; ///< small, below; may be empty
+  };
+
+  /** Groups of bars: for each class one bar a series. */
+  struct BarPlot
+  {
+    std::string              title, x_label, y_label;
+    std::vector<std::string> classes;
+    struct Series
+    {
+      std::string         label;
+      std::vector<double> values; ///< one a class
+    };
+    std::vector<Series> series;
+  };
+
+  /** @p text as a constant of a gnuplot script, taken literally whatever is in it. */
+  std::string
+  gnuplot_text(const std::string &text);
+
+  /** A script, data included, that makes gnuplot write the picture as SVG to its standard
+   * output; empty if there is nothing to show. */
+  std::string
+  gnuplot_script(const LinePlot &plot);
+  std::string
+  gnuplot_script(const BarPlot &plot);
+
+  /** Where gnuplot is on this machine, by the environment variable PATH; empty: nowhere. */
+  std::string
+  find_gnuplot();
+
+  /**
+   * Writes pictures, <name>.svg, and beside each the script <name>.gp that it was made by,
+   * into a folder. Without gnuplot there are only scripts, and the log says so
+   * once; that a picture fails is a warning, never the end of a run.
+   */
+  class PictureFolder
+  {
+  public:
+    /** @param folder made when there is something to write.
+     * @param log must outlive the object. */
+    PictureFolder(const std::string &folder, const core::Log &log);
+
+    /** Writes nothing for an empty script.
+     * @throws InputError or NumericalError if a file cannot be written. */
+    void
+    add(const std::string &name, const std::string &script);
+
+  private:
+    std::string      folder;
+    const core::Log &log;
+    std::string      program;
+    bool             missing_was_said = false;
+  };
+} // namespace tetradapt::report
+
+#endif

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_report_results_h
+#define tetradapt_report_results_h
+
+#include "tetradapt/adapt/observer.h"
+#include "tetradapt/core/log.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tetradapt::report
+{
+  /** A quantity that a run was to find, and what is known of it. */
+  struct Result
+  {
+    std::string           name;
+    std::optional<double> exact;
+    double                computed = 0.;
+    std::optional<double> error;           ///< exact - computed
+    std::optional<double> estimated_error; ///< as an estimator tells it, with its sign
+
+    /** |error / exact|. */
+    std::optional<double>
+    relative_error() const;
+  };
+
+  /**
+   * What @p record says of everything that @p scene knows the truth of or calls a goal: the
+   * energy a(u,u) beside the known one, the relative errors in norms (whose exact value is
+   * zero), and the goals. Empty if the scene has neither truth nor goals.
+   */
+  std::vector<Result>
+  results_of(const scene::Scene &scene, const adapt::CycleRecord &record);
+
+  /** results.csv: a row a result, 10 significant digits, nothing where a figure is not
+   * known. */
+  std::string
+  csv_results(const std::vector<Result> &results);
+
+  /** The same for reading. */
+  std::string
+  text_results(const std::vector<Result> &results);
+
+  /**
+   * Says in the end what the run has found: the results of the last cycle that was
+   * accepted go to the log and to results.csv and results.txt. Does nothing for a scene
+   * without truth and goals.
+   */
+  class ResultsSummary : public adapt::Observer
+  {
+  public:
+    /** @param directory where the files go; empty: none are written.
+     * @param log must outlive the object. */
+    ResultsSummary(const std::string &directory, const core::Log &log);
+
+    void
+    run_started(const scene::Scene &scene) override;
+    void
+    cycle_done(const adapt::CycleEvent &event) override;
+    /** @throws InputError or NumericalError if a file cannot be written. */
+    void
+    run_done(const std::string &reason) override;
+
+  private:
+    std::string                       directory;
+    const core::Log                  &log;
+    scene::Scene                      scene;
+    std::optional<adapt::CycleRecord> last;
+  };
+} // namespace tetradapt::report
+
+#endif

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/cli/run_study.h"
+
+#include "tetradapt/cli/check_inputs.h"
+#include "tetradapt/cli/outcome.h"
+#include "tetradapt/core/atomic_file.h"
+#include "tetradapt/core/exceptions.h"
+#include "tetradapt/core/on_first_rank.h"
+#include "tetradapt/report/convergence_table.h"
+#include "tetradapt/report/log_sinks.h"
+#include "tetradapt/report/output_directory.h"
+#include "tetradapt/report/plots.h"
+#include "tetradapt/scene/parameter_printer.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <iostream>
+#include <set>
+
+namespace tetradapt::cli
+{
+  namespace
+  {
+    /** Keeps the records of a run, also of one that fails later. */
+    class RecordKeeper : public adapt::Observer
+    {
+    public:
+      explicit RecordKeeper(std::vector<adapt::CycleRecord> &records) : records(records)
+      {
+      }
+
+      void
+      cycle_done(const adapt::CycleEvent &event) override
+      {
+        records.push_back(event.record);
+      }
+
+    private:
+      std::vector<adapt::CycleRecord> &records;
+    };
+
+    std::vector<adapt::CycleRecord>
+    all_records(const std::vector<StudyOutcome> &outcomes)
+    {
+      std::vector<adapt::CycleRecord> all;
+      for (const StudyOutcome &outcome : outcomes)
+        all.insert(all.end(), outcome.records.begin(), outcome.records.end());
+      return all;
+    }
+
+    const adapt::CycleRecord *
+    last_accepted(const std::vector<adapt::CycleRecord> &records)
+    {
+      for (auto record = records.rbegin(); record != records.rend(); ++record)
+        if (record->acceptance == adapt::Acceptance::accepted)
+          return &*record;
+      return nullptr;
+    }
+
+    /** The values that decide what check_inputs() finds. */
+    std::string
+    input_key(const scene::Scene &study, const StudyRun &run)
+    {
+      std::string key;
+      for (std::size_t i = 0; i < study.variations.size(); ++i)
+        for (std::size_t j = 0; j < study.variations[i].parameters.size(); ++j)
+          {
+            const std::string &name = study.variations[i].parameters[j];
+            for (const char *section : {"Mesh/", "Materials/", "Supports/", "Loads/", "Reference/"})
+              if (name.compare(0, std::string(section).size(), section) == 0)
+                key += name + "=" + study.variations[i].cases[run.cases[i]][j] + "\n";
+          }
+      return key;
+    }
+
+    std::vector<report::PlottedRun>
+    plotted(const std::vector<StudyRun> &runs, const std::vector<StudyOutcome> &outcomes)
+    {
+      std::vector<report::PlottedRun> result;
+      for (std::size_t i = 0; i < runs.size(); ++i)
+        {
+          // The first variation tells itself by colour, the others by the kind of line.
+          unsigned int pattern = 0;
+          for (std::size_t v = 1; v < runs[i].cases.size(); ++v)
+            pattern = pattern * (1 + runs.back().cases[v]) + runs[i].cases[v];
+          report::PlottedRun run;
+          run.label   = runs[i].label;
+          run.degree  = runs[i].scene.degree;
+          run.colour  = runs[i].cases.front();
+          run.pattern = pattern;
+          run.records = outcomes[i].records;
+          result.push_back(std::move(run));
+        }
+      return result;
+    }
+
+    void
+    write_tables(const scene::Scene              &study,
+                 const std::string               &directory,
+                 const std::vector<StudyRun>     &runs,
+                 const std::vector<StudyOutcome> &outcomes)
+    {
+      if (!study.output.tables)
+        return;
+      core::write_file(directory + "/study.csv", csv_study(study, runs, outcomes));
+      core::write_file(directory + "/study.txt", text_study(runs, outcomes));
+    }
+  } // namespace
+
+  std::string
+  csv_study(const scene::Scene              &study,
+            const std::vector<StudyRun>     &runs,
+            const std::vector<StudyOutcome> &outcomes)
+  {
+    const auto  columns = report::record_columns(all_records(outcomes));
+    std::string text    = "run";
+    for (const auto &variation : study.variations)
+      {
+        text += "," + report::csv_text(variation.name);
+        for (const std::string &parameter : variation.parameters)
+          text += "," + report::csv_text(parameter);
+      }
+    text += "," + report::csv_heading(columns) + "\n";
+    for (std::size_t i = 0; i < runs.size(); ++i)
+      {
+        std::string start = runs[i].name;
+        for (std::size_t v = 0; v < study.variations.size(); ++v)
+          {
+            start += "," + report::csv_text(case_label(study.variations[v], runs[i].cases[v]));
+            for (const std::string &value : study.variations[v].cases[runs[i].cases[v]])
+              start += "," + report::csv_text(value);
+          }
+        for (const adapt::CycleRecord &record : outcomes[i].records)
+          text += start + "," + report::csv_row(columns, record) + "\n";
+      }
+    return text;
+  }
+
+  std::string
+  text_study(const std::vector<StudyRun> &runs, const std::vector<StudyOutcome> &outcomes)
+  {
+    using report::format_number;
+    const auto cell = [](const std::optional<double> &value) {
+      return value ? format_number(*value, 4) : std::string("-");
+    };
+    std::vector<std::vector<std::string>> rows{{"run",
+                                                "what",
+                                                "cycles",
+                                                "tets",
+                                                "dofs",
+                                                "rel energy",
+                                                "mean REN",
+                                                "effect.",
+                                                "seconds",
+                                                "outcome"}};
+    for (std::size_t i = 0; i < runs.size(); ++i)
+      {
+        const auto &records = outcomes[i].records;
+        double      seconds = 0.;
+        for (const auto &record : records)
+          seconds += record.seconds_total;
+        rows.push_back({runs[i].name.substr(0, runs[i].name.find('-')),
+                        runs[i].label,
+                        std::to_string(records.size())});
+        const adapt::CycleRecord *last = last_accepted(records);
+        if (last == nullptr)
+          rows.back().insert(rows.back().end(), 6, "-");
+        else
+          for (const std::string &text : {std::to_string(last->tets),
+                                          std::to_string(last->dofs),
+                                          cell(last->relative_energy_error),
+                                          cell(last->mean_ren),
+                                          cell(last->effectivity),
+                                          report::format_fixed(seconds, 2)})
+            rows.back().push_back(text);
+        rows.back().push_back(outcomes[i].is_failed ? "failed"
+                              : outcomes[i].is_done ? "done"
+                                                    : "not yet");
+      }
+    return report::aligned_table(rows, 2);
+  }
+
+  void
+  check_study_inputs(const scene::Scene &study, const std::vector<StudyRun> &runs)
+  {
+    std::set<std::string> checked;
+    for (const StudyRun &run : runs)
+      if (checked.insert(input_key(study, run)).second)
+        try
+          {
+            check_inputs(run.scene);
+          }
+        catch (const core::InputError &error)
+          {
+            throw core::InputError(run.scene.with_place(error.what()) + " (in the run '" + run.label
+                                   + "' of the study)");
+          }
+  }
+
+  int
+  run_study(const scene::Scene          &study,
+            const std::vector<StudyRun> &runs,
+            const RunOptions            &options,
+            MPI_Comm                     communicator,
+            MPI_Comm                     control)
+  {
+    std::string directory;
+    core::on_first_rank(communicator, [&] {
+      check_study_inputs(study, runs);
+      const report::OutputDirectory folder(study);
+      folder.write_parameters(scene::effective_parameters(study));
+      directory = folder.path();
+    });
+    const bool first  = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+    const bool spoken = first && !options.quiet;
+    int        worst  = Outcome::done;
+
+    // What each run says at length is in its own log.txt.
+    RunOptions run_options = options;
+    run_options.brief      = true;
+    std::vector<StudyOutcome> outcomes(runs.size());
+    for (std::size_t i = 0; i < runs.size(); ++i)
+      {
+        if (spoken)
+          std::cout << (i == 0 ? "" : "\n") << "Run " << i + 1 << " of " << runs.size() << ": "
+                    << runs[i].label << std::endl;
+        RecordKeeper keeper(outcomes[i].records);
+        Outcome      outcome = attempt([&] {
+          run_scene(runs[i].scene,
+                    scene::effective_parameters(runs[i].scene),
+                    run_options,
+                    communicator,
+                    {&keeper});
+        });
+        if (outcome.code != Outcome::done)
+          outcome.message
+            = runs[i].scene.with_place(outcome.message) + " (run " + runs[i].name + ")";
+        const int code        = conclude(outcome, control);
+        outcomes[i].is_done   = true;
+        outcomes[i].is_failed = code != Outcome::done;
+        worst                 = std::max(worst, code);
+        core::on_first_rank(communicator, [&] { write_tables(study, directory, runs, outcomes); });
+      }
+    core::on_first_rank(communicator, [&] {
+      core::Log                  log;
+      const report::TerminalSink terminal(log,
+                                          std::cerr,
+                                          report::TerminalSink::stderr_options(options.quiet));
+      if (spoken)
+        std::cout << "\n" << text_study(runs, outcomes) << std::flush;
+      if (study.output.plots)
+        report::draw_study(directory,
+                           study.title.empty() ? study.name : study.title,
+                           plotted(runs, outcomes),
+                           log);
+      log.info(report::OutputDirectory::study_files_to_look_at(directory));
+    });
+    return worst;
+  }
+} // namespace tetradapt::cli

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/report/mesh_report.h"
+
+#include "tetradapt/core/atomic_file.h"
+#include "tetradapt/report/record_columns.h"
+
+#include <cmath>
+
+namespace tetradapt::report
+{
+  namespace
+  {
+    using Kind = RecordColumn::Kind;
+
+    bool
+    is_reported(const adapt::CycleRecord &record)
+    {
+      return record.mesh.max_dihedral > 0.;
+    }
+
+    std::string
+    number(const double value)
+    {
+      return format_number(value, 4);
+    }
+
+    std::string
+    figure(const double value)
+    {
+      return format_number(value, 10);
+    }
+
+    std::string
+    csv_row_of(const adapt::CycleRecord &record)
+    {
+      const adapt::MeshRecord &mesh = record.mesh;
+      std::string line = std::to_string(record.cycle) + "," + std::to_string(record.points) + ","
+                         + std::to_string(record.tets) + ","
+                         + format_cell(Kind::figure, mesh.requested_tets, 10, -1, "") + ","
+                         + std::to_string(mesh.unmet_sizes) + "," + figure(mesh.volume_drift) + ","
+                         + figure(mesh.largest_projection) + "," + std::to_string(mesh.unprojected)
+                         + "," + figure(mesh.min_dihedral) + "," + figure(mesh.max_dihedral) + ","
+                         + figure(mesh.max_aspect_ratio);
+      for (const unsigned long count : mesh.dihedral_histogram)
+        line += "," + std::to_string(count);
+      return line + "," + csv_text(mesh.census) + "\n";
+    }
+
+    std::string
+    histogram_line(const adapt::MeshRecord &mesh)
+    {
+      unsigned long all = 0;
+      for (const unsigned long count : mesh.dihedral_histogram)
+        all += count;
+      if (all == 0)
+        return "";
+      std::string text = "smallest dihedral angles";
+      for (unsigned int i = 0; i < dihedral_class_begins.size(); ++i)
+        {
+          const unsigned int begin = dihedral_class_begins[i];
+          text += (i == 0 ? " " : ", ")
+                  + (i + 1 == dihedral_class_begins.size()
+                       ? "from " + std::to_string(begin)
+                       : std::to_string(begin) + "-" + std::to_string(dihedral_class_begins[i + 1]))
+                  + ": " + number(100. * mesh.dihedral_histogram[i] / all) + " %";
+        }
+      return text;
+    }
+  } // namespace
+
+  std::string
+  csv_meshes(const std::vector<adapt::CycleRecord> &records)
+  {
+    std::string text = "cycle,points,tets,requested_tets,unmet_sizes,volume_drift,"
+                       "largest_projection,unprojected,min_dihedral,max_dihedral,max_aspect_ratio";
+    for (unsigned int i = 0; i < dihedral_class_begins.size(); ++i)
+      text += "," + dihedral_class_name(i);
+    text += ",census\n";
+    for (const adapt::CycleRecord &record : records)
+      text += csv_row_of(record);
+    return text;
+  }
+
+  std::string
+  describe_mesh_record(const adapt::CycleRecord &record)
+  {
+    if (!is_reported(record))
+      return "";
+    const adapt::MeshRecord &mesh = record.mesh;
+    std::string              text
+      = "Mesh of cycle " + std::to_string(record.cycle) + ": " + std::to_string(record.tets)
+        + " tetrahedra"
+        + (mesh.requested_tets ? ", " + number(*mesh.requested_tets) + " asked for" : "");
+    if (mesh.requested_tets || mesh.unmet_sizes > 0)
+      text += ", " + std::to_string(mesh.unmet_sizes) + " more than twice as large as wanted";
+    // Below, sums of rounding errors.
+    text += std::abs(mesh.volume_drift) > 1e-12
+              ? ", volume changed by " + number(100. * mesh.volume_drift) + " %"
+              : ", volume kept";
+    if (mesh.largest_projection > 0. || mesh.unprojected > 0)
+      text += ", points moved to the boundary by up to " + number(mesh.largest_projection) + ", "
+              + std::to_string(mesh.unprojected) + " kept back";
+    for (const std::string &line : {histogram_line(mesh), mesh.census})
+      text += (line.empty() ? "" : "\n") + line;
+    return text;
+  }
+
+  MeshReport::MeshReport(const std::string &directory, const core::Log &log)
+    : directory(directory), log(log)
+  {
+  }
+
+  void
+  MeshReport::run_started(const scene::Scene &)
+  {
+    records.clear();
+  }
+
+  void
+  MeshReport::cycle_done(const adapt::CycleEvent &event)
+  {
+    if (!is_reported(event.record))
+      return;
+    records.push_back(event.record);
+    log.info(describe_mesh_record(event.record));
+    if (!directory.empty())
+      core::write_file(directory + "/mesh.csv", csv_meshes(records));
+  }
+} // namespace tetradapt::report

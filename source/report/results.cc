@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/report/results.h"
+
+#include "tetradapt/core/atomic_file.h"
+#include "tetradapt/report/record_columns.h"
+
+#include <cmath>
+
+namespace tetradapt::report
+{
+  namespace
+  {
+    using Kind = RecordColumn::Kind;
+
+    std::vector<std::optional<double>>
+    figures(const Result &result)
+    {
+      return {result.exact,
+              result.computed,
+              result.error,
+              result.relative_error(),
+              result.estimated_error};
+    }
+
+    const std::vector<std::string> heading{
+      "result", "exact", "computed", "error", "relative_error", "estimated_error"};
+  } // namespace
+
+  std::optional<double>
+  Result::relative_error() const
+  {
+    if (!error || !exact || *exact == 0.)
+      return {};
+    return std::abs(*error / *exact);
+  }
+
+  std::vector<Result>
+  results_of(const scene::Scene &scene, const adapt::CycleRecord &record)
+  {
+    std::vector<Result> results;
+    if (scene.truth.has_energy())
+      {
+        const double exact = scene.truth.energy;
+        results.push_back({"energy", exact, record.energy, exact - record.energy, {}});
+      }
+    const auto add_norm = [&](const std::string &name, const std::optional<double> &error) {
+      if (error)
+        results.push_back({name, 0., *error, -*error, {}});
+    };
+    if (scene.truth.has_energy() || scene.truth.has_displacement())
+      add_norm("relative energy error", record.relative_energy_error);
+    if (scene.truth.has_displacement())
+      {
+        add_norm("relative L2 error", record.relative_l2_error);
+        add_norm("relative H1 error", record.relative_h1_error);
+      }
+    for (const adapt::GoalRecord &goal : record.goals)
+      results.push_back(
+        {"goal " + goal.name, goal.exact, goal.value, goal.error, goal.estimated_error});
+    return results;
+  }
+
+  std::string
+  csv_results(const std::vector<Result> &results)
+  {
+    std::string text;
+    for (const std::string &name : heading)
+      text += (text.empty() ? "" : ",") + name;
+    text += '\n';
+    for (const Result &result : results)
+      {
+        text += csv_text(result.name);
+        for (const auto &figure : figures(result))
+          text += "," + format_cell(Kind::figure, figure, 10, -1, "");
+        text += '\n';
+      }
+    return text;
+  }
+
+  std::string
+  text_results(const std::vector<Result> &results)
+  {
+    std::vector<std::vector<std::string>> rows{heading};
+    for (std::string &name : rows[0])
+      for (char &c : name)
+        c = c == '_' ? ' ' : c;
+    for (const Result &result : results)
+      {
+        rows.push_back({result.name});
+        for (const auto &figure : figures(result))
+          rows.back().push_back(format_cell(Kind::figure, figure, 7, -1, "-"));
+      }
+    return aligned_table(rows, 1);
+  }
+
+  ResultsSummary::ResultsSummary(const std::string &directory, const core::Log &log)
+    : directory(directory), log(log)
+  {
+  }
+
+  void
+  ResultsSummary::run_started(const scene::Scene &started)
+  {
+    scene = started;
+    last.reset();
+  }
+
+  void
+  ResultsSummary::cycle_done(const adapt::CycleEvent &event)
+  {
+    if (event.record.acceptance == adapt::Acceptance::accepted)
+      last = event.record;
+  }
+
+  void
+  ResultsSummary::run_done(const std::string &)
+  {
+    const auto results = last ? results_of(scene, *last) : std::vector<Result>();
+    if (results.empty())
+      return;
+    const std::string table = text_results(results);
+    log.info("Results of cycle " + std::to_string(last->cycle) + ":\n"
+             + table.substr(0, table.size() - 1));
+    if (!directory.empty())
+      {
+        core::write_file(directory + "/results.csv", csv_results(results));
+        core::write_file(directory + "/results.txt", table);
+      }
+  }
+} // namespace tetradapt::report
