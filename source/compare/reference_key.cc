@@ -125,6 +125,8 @@ namespace tetradapt::compare
           text("scheme", scene.tetgen.optimisation_scheme);
           text("points", scene.tetgen.steiner_points);
           text("boundary", scene.tetgen.keep_boundary);
+          text("projection", static_cast<int>(scene.mesh.projection));
+          text.list("functions", scene.mesh.projection_functions);
         }
     }
 
@@ -203,7 +205,13 @@ namespace tetradapt::compare
     Fingerprint hash;
     hash.add(text.str());
     if (scene.reference.route == scene::ReferenceParameters::MeshRoute::refine)
-      add_mesh(hash, initial_mesh);
+      {
+        add_mesh(hash, initial_mesh);
+        if (scene.mesh.projection == scene::MeshParameters::Projection::surface)
+          add_file(hash,
+                   scene.mesh.projection_file.empty() ? scene.mesh.files.front()
+                                                      : scene.mesh.projection_file);
+      }
     if (scene.reference.route == scene::ReferenceParameters::MeshRoute::file)
       add_mesh_file(hash, scene.reference.file);
     return hash.hex();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/compare/reference_mesh.h"
 
+#include "tetradapt/mesh/boundary_projection.h"
 #include "tetradapt/mesh/bricks.h"
 #include "tetradapt/mesh/mesh_factory.h"
 #include "tetradapt/mesh/selection.h"
@@ -20,6 +21,8 @@ namespace tetradapt::compare
       quality.dihedral_angle             = parameters.dihedral_angle;
       const mesh::Tetgen tetgen(quality);
       log.progress("reference: TetGen refines the initial mesh");
+      // A reference of the same body must have the same boundary.
+      const auto    projection  = mesh::make_projection(scene.mesh);
       mesh::TetMesh mesh        = initial_mesh;
       bool          cap_reached = false;
       if (parameters.volume_bound > 0.)
@@ -28,7 +31,9 @@ namespace tetradapt::compare
           mesh::TetgenReport report;
           sizing.max_volume = parameters.volume_bound;
           mesh              = tetgen.refine(mesh, sizing, &report);
-          cap_reached       = report.cap_reached;
+          if (projection != nullptr)
+            projection->project(mesh);
+          cap_reached = report.cap_reached;
         }
       if (!parameters.size.empty())
         {
@@ -36,7 +41,8 @@ namespace tetradapt::compare
           mesh        = mesh::mesh_with_size(tetgen,
                                       mesh,
                                       core::Expression(parameters.size, "Reference/Size"),
-                                      &report);
+                                      &report,
+                                      mesh::project_on(projection.get()));
           cap_reached = cap_reached || report.cap_reached;
         }
       if (cap_reached)

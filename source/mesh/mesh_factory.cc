@@ -5,6 +5,7 @@
 #include "tetradapt/geometry/remeshing.h"
 #include "tetradapt/geometry/surface_io.h"
 #include "tetradapt/mesh/blocks.h"
+#include "tetradapt/mesh/boundary_projection.h"
 #include "tetradapt/mesh/bricks.h"
 #include "tetradapt/mesh/plc.h"
 #include "tetradapt/mesh/selection.h"
@@ -67,7 +68,10 @@ namespace tetradapt::mesh
     }
 
     TetMesh
-    unselected_mesh(const scene::Scene &scene, unsigned int number, const core::Log &log)
+    unselected_mesh(const scene::Scene       &scene,
+                    unsigned int              number,
+                    const BoundaryProjection *projection,
+                    const core::Log          &log)
     {
       const scene::MeshParameters &parameters = scene.mesh;
       Sizing                       sizing;
@@ -108,7 +112,10 @@ namespace tetradapt::mesh
           {
             const std::string &file = entry(parameters.files, number);
             log.progress("reading " + file);
-            const TetMesh mesh = read_volume_mesh(file);
+            TetMesh mesh = read_volume_mesh(file);
+            // New points would lie on no curved surface.
+            if (projection != nullptr)
+              projection->assign(mesh);
             if (sizing.max_volume <= 0.)
               return mesh;
             TetgenReport  report;
@@ -139,7 +146,8 @@ namespace tetradapt::mesh
     for (const auto &support : scene.supports)
       selectors.emplace_back("Supports/" + support.name, support.selector);
     for (const auto &load : scene.loads)
-      if (load.type == scene::LoadType::traction || load.type == scene::LoadType::pressure)
+      if (load.type == scene::LoadType::traction || load.type == scene::LoadType::pressure
+          || load.type == scene::LoadType::nodal_force)
         selectors.emplace_back("Loads/" + load.name, load.selector);
     return selectors;
   }
@@ -147,8 +155,15 @@ namespace tetradapt::mesh
   TetMesh
   make_mesh(const scene::Scene &scene, unsigned int number, const core::Log &log)
   {
-    TetMesh mesh = unselected_mesh(scene, number, log);
+    const auto projection = make_projection(scene.mesh);
+    TetMesh    mesh       = unselected_mesh(scene, number, projection.get(), log);
     check_extent(mesh);
+    if (projection != nullptr)
+      {
+        if (scene.mesh.source != scene::MeshSource::file)
+          projection->assign(mesh);
+        projection->project(mesh);
+      }
     if (!scene.mesh.size.empty())
       {
         log.progress("TetGen refines to Mesh/Size");
@@ -156,7 +171,8 @@ namespace tetradapt::mesh
         mesh = mesh_with_size(Tetgen(scene.tetgen),
                               mesh,
                               core::Expression(scene.mesh.size, "Mesh/Size"),
-                              &report);
+                              &report,
+                              project_on(projection.get()));
         if (report.cap_reached)
           log.warning("TetGen/Steiner points stopped the refinement to Mesh/Size: "
                       + std::to_string(report.oversized_cells)

@@ -14,6 +14,7 @@ namespace tetradapt::mesh
   namespace
   {
     constexpr unsigned int most_passes      = 6;
+    constexpr unsigned int most_small_steps = 14; ///< passes, where steps are limited
     constexpr double       tolerated_excess = 1.5;
 
     /** How fast sizes may grow away from a small size found inside a cell. */
@@ -26,22 +27,6 @@ namespace tetradapt::mesh
       std::vector<double> cells; ///< least of the samples in a cell
     };
 
-    double
-    evaluate(const core::Expression &size, const Point<3> &point)
-    {
-      const double h = size(point);
-      if (!(h > 0.))
-        {
-          std::ostringstream message;
-          message << "The wanted edge length '" << size.text() << "' is " << h << " at "
-                  << to_string(point)
-                  << "; it must be positive everywhere. Correct Size in Mesh or "
-                     "Reference.";
-          throw core::InputError(message.str());
-        }
-      return h;
-    }
-
     Point<3>
     centroid(const TetMesh &mesh, unsigned int cell)
     {
@@ -51,19 +36,25 @@ namespace tetradapt::mesh
       return sum / 4.;
     }
 
+    double
+    equivalent_edge(const TetMesh &mesh, unsigned int cell)
+    {
+      return std::cbrt(6. * std::sqrt(2.) * cell_volume(mesh, cell));
+    }
+
     SampledSize
-    sample(const TetMesh &mesh, const core::Expression &size)
+    sample(const TetMesh &mesh, const SizeFunction &size)
     {
       SampledSize result;
       result.nodes.reserve(mesh.n_points());
       for (const auto &point : mesh.points)
-        result.nodes.push_back(evaluate(size, point));
+        result.nodes.push_back(size(point));
       const std::vector<double> at_points = result.nodes;
       result.cells.reserve(mesh.n_cells());
       for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
         {
           const Point<3> middle = centroid(mesh, cell);
-          const double   h      = evaluate(size, middle);
+          const double   h      = size(middle);
           double         least  = h;
           for (const unsigned int v : mesh.cells[cell])
             {
@@ -76,6 +67,26 @@ namespace tetradapt::mesh
       return result;
     }
 
+    /** Raises sizes to @p smallest_step times what the cells around have on average. */
+    void
+    limit_step(const TetMesh &mesh, double smallest_step, std::vector<double> &sizes)
+    {
+      std::vector<double>       logs(mesh.n_points(), 0.);
+      std::vector<unsigned int> count(mesh.n_points(), 0);
+      for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
+        {
+          const double log = std::log(equivalent_edge(mesh, cell));
+          for (const unsigned int v : mesh.cells[cell])
+            {
+              logs[v] += log;
+              ++count[v];
+            }
+        }
+      for (unsigned int p = 0; p < mesh.n_points(); ++p)
+        if (count[p] > 0)
+          sizes[p] = std::max(sizes[p], smallest_step * std::exp(logs[p] / count[p]));
+    }
+
     void
     compare(const TetMesh &mesh, const SampledSize &wanted, SizeReport &report)
     {
@@ -84,8 +95,7 @@ namespace tetradapt::mesh
       report.oversized_cells = 0;
       for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
         {
-          const double obtained = std::cbrt(6. * std::sqrt(2.) * cell_volume(mesh, cell));
-          const double ratio    = obtained / wanted.cells[cell];
+          const double ratio = equivalent_edge(mesh, cell) / wanted.cells[cell];
           sum_of_logs += std::log(ratio);
           report.largest_ratio = std::max(report.largest_ratio, ratio);
           report.oversized_cells += ratio > tolerated_excess;
@@ -95,26 +105,33 @@ namespace tetradapt::mesh
   } // namespace
 
   TetMesh
-  mesh_with_size(const Tetgen           &tetgen,
-                 const TetMesh          &start,
-                 const core::Expression &size,
-                 SizeReport             *report)
+  mesh_with_size(const Tetgen       &tetgen,
+                 const TetMesh      &start,
+                 const SizeFunction &size,
+                 SizeReport         *report,
+                 const MeshChange   &change,
+                 double              smallest_step)
   {
     const auto  begin = std::chrono::steady_clock::now();
     SizeReport  own;
     TetMesh     mesh   = start;
     SampledSize wanted = sample(mesh, size);
     compare(mesh, wanted, own);
-    while (own.oversized_cells > 0 && own.passes < most_passes)
+    while (own.oversized_cells > 0
+           && own.passes < (smallest_step > 0. ? most_small_steps : most_passes))
       {
         Sizing sizing;
         sizing.node_sizes = wanted.nodes;
+        if (smallest_step > 0.)
+          limit_step(mesh, smallest_step, sizing.node_sizes);
         TetgenReport step;
         TetMesh      refined = tetgen.refine(mesh, sizing, &step);
         own.cap_reached      = own.cap_reached || step.cap_reached;
         if (!step.called || step.new_points == 0)
           break;
         ++own.passes;
+        if (change)
+          change(refined);
         mesh   = std::move(refined);
         wanted = sample(mesh, size);
         compare(mesh, wanted, own);
@@ -128,5 +145,28 @@ namespace tetradapt::mesh
         *report = own;
       }
     return mesh;
+  }
+
+  TetMesh
+  mesh_with_size(const Tetgen           &tetgen,
+                 const TetMesh          &start,
+                 const core::Expression &size,
+                 SizeReport             *report,
+                 const MeshChange       &change)
+  {
+    const SizeFunction checked = [&size](const Point<3> &point) {
+      const double h = size(point);
+      if (!(h > 0.))
+        {
+          std::ostringstream message;
+          message << "The wanted edge length '" << size.text() << "' is " << h << " at "
+                  << to_string(point)
+                  << "; it must be positive everywhere. Correct Size in Mesh or "
+                     "Reference.";
+          throw core::InputError(message.str());
+        }
+      return h;
+    };
+    return mesh_with_size(tetgen, start, checked, report, change);
   }
 } // namespace tetradapt::mesh

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_mesh_boundary_projection_h
+#define tetradapt_mesh_boundary_projection_h
+
+#include "tetradapt/mesh/point_moves.h"
+#include "tetradapt/scene/mesh_parameters.h"
+
+#include <functional>
+#include <memory>
+
+namespace tetradapt::mesh
+{
+  class CurvedSurface;
+
+  /**
+   * Keeps the boundary of a mesh on the true surface of the body, a fine triangulated
+   * surface or the zero sets of functions, while the mesh is refined.
+   *
+   * Patches carry on which surface they lie as one of their selections, with the name
+   * surface_name(): so it survives whatever keeps patches. assign() gives it to the
+   * faces of a first mesh, project() moves the points of any later one.
+   *
+   * Where a point goes: with minimal change onto all surfaces that its faces lie on,
+   * by Newton's method on their (numerical) gradients; faces that lie on none keep their
+   * planes. A point where two surfaces meet so stays on both. On a triangulated
+   * surface, points of a mesh edge that bends by more than Mesh/Feature angle go to the
+   * surface's own sharp edges. A point stays where it is if it would have to go farther
+   * than its longest boundary edge is long, or if move_points() holds it.
+   */
+  class BoundaryProjection
+  {
+  public:
+    /** @throws InputError if the surface cannot be read, is not closed, or a function
+     *         does not parse. */
+    explicit BoundaryProjection(const scene::MeshParameters &parameters);
+    ~BoundaryProjection();
+
+    /**
+     * Splits patches so that each lies on one surface or on none. A face lies on the
+     * first surface from which its corners are within a hundredth of its longest edge,
+     * and whose normal is within 60 degrees of its own; where the mesh was made
+     * from the surface itself, every face does.
+     *
+     * @throws InputError if one of the functions vanishes on no face.
+     */
+    void
+    assign(TetMesh &mesh) const;
+
+    /** Moves the boundary's points to where they belong. */
+    MoveReport
+    project(TetMesh &mesh) const;
+
+    /** Volume inside the triangulated surface; 0 where it is not known. */
+    double
+    true_volume() const;
+
+  private:
+    bool                                        every_face = false;
+    double                                      feature_angle;
+    double                                      volume = 0.;
+    std::vector<std::unique_ptr<CurvedSurface>> surfaces;
+  };
+
+  /** The projection that a scene asks for; null for Mesh/Projection = none. */
+  std::unique_ptr<BoundaryProjection>
+  make_projection(const scene::MeshParameters &parameters);
+
+  /** What mesh_with_size() is to do to each mesh: project() it; nothing for null. Keeps
+   * the pointer. */
+  std::function<void(TetMesh &)>
+  project_on(const BoundaryProjection *projection);
+} // namespace tetradapt::mesh
+
+#endif
