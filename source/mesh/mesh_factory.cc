@@ -149,6 +149,9 @@ namespace tetradapt::mesh
       if (load.type == scene::LoadType::traction || load.type == scene::LoadType::pressure
           || load.type == scene::LoadType::nodal_force)
         selectors.emplace_back("Loads/" + load.name, load.selector);
+    for (const auto &goal : scene.goals)
+      if (goal.uses_faces() && !goal.selector.empty())
+        selectors.emplace_back("Goals/" + goal.name, goal.selector);
     return selectors;
   }
 

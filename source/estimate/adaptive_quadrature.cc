@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/estimate/adaptive_quadrature.h"
+
+#include "tetradapt/compare/parallel.h"
+#include "tetradapt/compare/tet_quadrature.h"
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tetradapt::estimate
+{
+  namespace
+  {
+    /** Parts 2^-12 of a cell are as good as points. */
+    constexpr unsigned int last_level = 12;
+
+    mesh::Barycentric
+    combine(const mesh::Barycentric *corners, const double *weights, unsigned int n)
+    {
+      mesh::Barycentric b{{0., 0., 0., 0.}};
+      for (unsigned int k = 0; k < n; ++k)
+        for (unsigned int i = 0; i < 4; ++i)
+          b[i] += weights[k] * corners[k][i];
+      return b;
+    }
+
+    mesh::Barycentric
+    middle_of(const mesh::Barycentric &a, const mesh::Barycentric &b)
+    {
+      mesh::Barycentric result;
+      for (unsigned int i = 0; i < 4; ++i)
+        result[i] = 0.5 * (a[i] + b[i]);
+      return result;
+    }
+
+    Point<3>
+    position(const mesh::TetMesh &mesh, unsigned int cell, const mesh::Barycentric &b)
+    {
+      Point<3> x;
+      for (unsigned int i = 0; i < 4; ++i)
+        x += b[i] * dealii::Tensor<1, 3>(mesh.points[mesh.cells[cell][i]]);
+      return x;
+    }
+  } // namespace
+
+  template <unsigned int n_corners>
+  AdaptiveQuadrature<n_corners>::AdaptiveQuadrature(const mesh::TetMesh &mesh,
+                                                    const Densities     &densities)
+    : mesh(mesh), densities(densities), low(make_rule(0)), middle(make_rule(1)), high(make_rule(2))
+  {
+  }
+
+  template <unsigned int n_corners>
+  typename AdaptiveQuadrature<n_corners>::Rule
+  AdaptiveQuadrature<n_corners>::make_rule(unsigned int order)
+  {
+    Rule rule;
+    if constexpr (n_corners == 4)
+      {
+        const auto &points = compare::tet_quadrature(order == 0 ? 2 : order == 1 ? 5 : 6);
+        rule.points.assign(points.points.begin(), points.points.end());
+        rule.weights = points.weights;
+      }
+    else
+      {
+        const dealii::QGaussSimplex<2> points(order + 2);
+        for (unsigned int q = 0; q < points.size(); ++q)
+          {
+            const auto &p = points.point(q);
+            rule.points.push_back({{1. - p[0] - p[1], p[0], p[1]}});
+            rule.weights.push_back(2. * points.weight(q));
+          }
+      }
+    return rule;
+  }
+
+  template <unsigned int n_corners>
+  bool
+  AdaptiveQuadrature<n_corners>::is_large(unsigned int cell, const Corners &corners) const
+  {
+    if (densities.constant)
+      return false;
+    double longest = 0.;
+    for (unsigned int i = 0; i < n_corners; ++i)
+      for (unsigned int j = 0; j < i; ++j)
+        longest = std::max(
+          longest,
+          position(mesh, cell, corners[i]).distance_square(position(mesh, cell, corners[j])));
+    return longest > densities.largest_part * densities.largest_part;
+  }
+
+  template <unsigned int n_corners>
+  template <typename Action>
+  void
+  AdaptiveQuadrature<n_corners>::for_children(const Corners &c, const Action &action)
+  {
+    // One part at each corner, and the rest: a triangle, or four tetrahedra around one
+    // diagonal of an octahedron.
+    for (unsigned int i = 0; i < n_corners; ++i)
+      {
+        Corners child = c;
+        for (unsigned int j = 0; j < n_corners; ++j)
+          child[j] = middle_of(c[i], c[j]);
+        action(child);
+      }
+    const auto m = [&c](unsigned int i, unsigned int j) { return middle_of(c[i], c[j]); };
+    if constexpr (n_corners == 3)
+      action(Corners{{m(0, 1), m(1, 2), m(2, 0)}});
+    else
+      {
+        const std::array<mesh::Barycentric, 4> ring{{m(0, 1), m(1, 3), m(2, 3), m(0, 2)}};
+        for (unsigned int k = 0; k < 4; ++k)
+          action(Corners{{m(0, 3), m(1, 2), ring[k], ring[(k + 1) % 4]}});
+      }
+  }
+
+  template <unsigned int n_corners>
+  typename AdaptiveQuadrature<n_corners>::Values
+  AdaptiveQuadrature<n_corners>::integrate(unsigned int         cell,
+                                           const Corners       &corners,
+                                           double               measure,
+                                           const Rule          &rule,
+                                           std::vector<Values> &values) const
+  {
+    Values sum{};
+    values.resize(rule.points.size());
+    for (unsigned int q = 0; q < rule.points.size(); ++q)
+      {
+        const auto b = combine(corners.data(), rule.points[q].data(), n_corners);
+        densities.evaluate(position(mesh, cell, b), values[q].data());
+        for (unsigned int i = 0; i < densities.n; ++i)
+          sum[i] += measure * rule.weights[q] * values[q][i];
+      }
+    return sum;
+  }
+
+  template <unsigned int n_corners>
+  bool
+  AdaptiveQuadrature<n_corners>::agree(const Values &a,
+                                       const Values &b,
+                                       const double *tolerances) const
+  {
+    for (unsigned int i = 0; i < densities.n; ++i)
+      if (std::abs(a[i] - b[i]) > tolerances[i])
+        return false;
+    return true;
+  }
+
+  template <unsigned int n_corners>
+  void
+  AdaptiveQuadrature<n_corners>::add_sizes(unsigned int   cell,
+                                           const Corners &corners,
+                                           double         measure,
+                                           double        *sums) const
+  {
+    if (is_large(cell, corners))
+      {
+        for_children(corners, [&](const Corners &child) {
+          add_sizes(cell, child, measure / (n_corners == 4 ? 8. : 4.), sums);
+        });
+        return;
+      }
+    integrate(cell, corners, measure, low, values);
+    for (unsigned int q = 0; q < values.size(); ++q)
+      for (unsigned int i = 0; i < densities.n; ++i)
+        sums[i] += measure * low.weights[q] * std::abs(values[q][i]);
+  }
+
+  template <unsigned int n_corners>
+  void
+  AdaptiveQuadrature<n_corners>::visit(unsigned int   cell,
+                                       const Corners &corners,
+                                       double         measure,
+                                       const double  *tolerances,
+                                       const Visitor &visitor) const
+  {
+    refine(cell, corners, measure, tolerances, 0, visitor);
+  }
+
+  template <unsigned int n_corners>
+  void
+  AdaptiveQuadrature<n_corners>::refine(unsigned int   cell,
+                                        const Corners &corners,
+                                        double         measure,
+                                        const double  *tolerances,
+                                        unsigned int   level,
+                                        const Visitor &visitor) const
+  {
+    const bool last = densities.constant || level == last_level;
+    bool       good = last;
+    if (last || !is_large(cell, corners))
+      {
+        const Values sum = integrate(cell, corners, measure, middle, values);
+        good = last || agree(sum, integrate(cell, corners, measure, low, others), tolerances)
+               || agree(sum, integrate(cell, corners, measure, high, others), tolerances);
+      }
+    if (!good)
+      {
+        for_children(corners, [&](const Corners &child) {
+          refine(cell, child, measure / (n_corners == 4 ? 8. : 4.), tolerances, level + 1, visitor);
+        });
+        return;
+      }
+    for (unsigned int q = 0; q < values.size(); ++q)
+      if (std::any_of(values[q].begin(), values[q].begin() + densities.n, [](double value) {
+            return value != 0.;
+          }))
+        visitor(combine(corners.data(), middle.points[q].data(), n_corners),
+                measure * middle.weights[q],
+                values[q].data());
+  }
+
+  template class AdaptiveQuadrature<3>;
+  template class AdaptiveQuadrature<4>;
+
+  template <unsigned int n_corners>
+  void
+  visit_parts(const mesh::TetMesh                                           &mesh,
+              const Densities                                               &densities,
+              unsigned int                                                   n_parts,
+              const std::function<IntegrationPart<n_corners>(unsigned int)> &part,
+              double                                                         accuracy,
+              MPI_Comm                                                       communicator,
+              const PointVisitor                                            &visitor)
+  {
+    const AdaptiveQuadrature<n_corners> quadrature(mesh, densities);
+    std::vector<double>                 tolerances(densities.n, 0.);
+    compare::together(communicator, [&] {
+      if (!densities.constant)
+        for (unsigned int k = 0; k < n_parts; ++k)
+          {
+            const auto p = part(k);
+            quadrature.add_sizes(p.cell, p.corners, p.measure, tolerances.data());
+          }
+    });
+    compare::sum_over_ranks(tolerances, communicator);
+    for (double &tolerance : tolerances)
+      tolerance *= accuracy;
+    compare::together(communicator, [&] {
+      for (unsigned int k = 0; k < n_parts; ++k)
+        {
+          const auto p = part(k);
+          quadrature.visit(p.cell,
+                           p.corners,
+                           p.measure,
+                           tolerances.data(),
+                           [&](const mesh::Barycentric &b, double weight, const double *values) {
+                             visitor(p.cell, b, weight, values);
+                           });
+        }
+    });
+  }
+
+  template void
+  visit_parts<3>(const mesh::TetMesh &,
+                 const Densities &,
+                 unsigned int,
+                 const std::function<IntegrationPart<3>(unsigned int)> &,
+                 double,
+                 MPI_Comm,
+                 const PointVisitor &);
+  template void
+  visit_parts<4>(const mesh::TetMesh &,
+                 const Densities &,
+                 unsigned int,
+                 const std::function<IntegrationPart<4>(unsigned int)> &,
+                 double,
+                 MPI_Comm,
+                 const PointVisitor &);
+} // namespace tetradapt::estimate
