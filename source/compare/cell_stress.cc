@@ -45,9 +45,11 @@ namespace tetradapt::compare
       }
   }
 
-  CellStress::CellStress(const mesh::NodalField &u_h, const mechanics::MaterialMap &materials)
+  CellStress::CellStress(const mesh::NodalField       &u_h,
+                         const mechanics::MaterialMap &materials,
+                         const bool                    with_thermal_strain)
     : mesh(u_h.mesh()), material_map(materials), cell_materials(materials, u_h.mesh()),
-      linear(u_h.degree() == 2)
+      linear(u_h.degree() == 2), thermal(with_thermal_strain && materials.has_thermal_strain())
   {
     const unsigned int n_cells = mesh.n_cells();
     values.resize(std::size_t(n_cells) * (linear ? 24 : 6));

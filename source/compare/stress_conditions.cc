@@ -2,6 +2,9 @@
 #include "tetradapt/compare/stress_conditions.h"
 
 #include "tetradapt/compare/field_evaluator.h"
+#include "tetradapt/mesh/face_table.h"
+
+#include <algorithm>
 
 namespace tetradapt::compare
 {
@@ -81,8 +84,16 @@ namespace tetradapt::compare
               const GivenLoads    &loads)
     {
       Face face{};
+      for (unsigned int i = 0; i < 4; ++i)
+        {
+          const auto &points = mesh.faces[f].vertices;
+          if (std::find(points.begin(), points.end(), mesh.cells[cell][i]) == points.end())
+            face.local_face = i;
+        }
+      std::array<unsigned int, 3> v;
+      for (unsigned int i = 0; i < 3; ++i)
+        v[i] = mesh.cells[cell][mesh::face_vertices[face.local_face][i]];
       face.n_points             = degree == 1 ? 1 : 3;
-      const auto        &v      = mesh.faces[f].vertices;
       const Tensor<1, 3> n      = mesh::face_area_vector(mesh, mesh.faces[f]);
       const Tensor<1, 3> normal = n / n.norm();
       for (unsigned int q = 0; q < face.n_points; ++q)
@@ -121,6 +132,19 @@ namespace tetradapt::compare
       return face;
     }
   } // namespace
+
+  void
+  StressConditions::Face::right_at(const mesh::Barycentric &b, double *result) const
+  {
+    std::fill(result, result + 6, 0.);
+    for (unsigned int q = 0; q < n_points; ++q)
+      {
+        const double weight
+          = n_points == 1 ? 1. : 2. * b[mesh::face_vertices[local_face][q]] - 1. / 3.;
+        for (unsigned int a = 0; a < 6; ++a)
+          result[a] += weight * right[q][a];
+      }
+  }
 
   StressConditions::StressConditions(const mesh::NodalField &u_h,
                                      const CellStress       &stress,

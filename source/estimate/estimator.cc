@@ -1,65 +1,48 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/estimate/estimator.h"
 
-#include "tetradapt/core/exceptions.h"
+#include "tetradapt/estimate/equilibrated.h"
+#include "tetradapt/estimate/extrapolation.h"
+#include "tetradapt/estimate/flux_projection.h"
+#include "tetradapt/estimate/goal_oriented.h"
+#include "tetradapt/estimate/interpolation.h"
+#include "tetradapt/estimate/residual.h"
+
+#include <stdexcept>
 
 namespace tetradapt::estimate
 {
-  namespace
-  {
-    std::vector<std::unique_ptr<Estimator>>
-    all_estimators()
-    {
-      std::vector<std::unique_ptr<Estimator>> all;
-      all.push_back(std::make_unique<ExtrapolationEnergy>());
-      all.push_back(std::make_unique<ExtrapolationRen>());
-      all.push_back(std::make_unique<ExactEnergy>());
-      return all;
-    }
-  } // namespace
-
-
-
-  std::vector<std::string>
-  estimator_names()
-  {
-    std::vector<std::string> names;
-    for (const auto &estimator : all_estimators())
-      names.push_back(estimator->name());
-    return names;
-  }
-
-
-
   std::unique_ptr<Estimator>
-  make_estimator(const std::string &name)
+  make_estimator(const scene::ErrorEstimator which)
   {
-    std::string valid;
-    for (auto &estimator : all_estimators())
+    using scene::ErrorEstimator;
+    switch (which)
       {
-        if (estimator->name() == name)
-          return std::move(estimator);
-        valid += (valid.empty() ? "'" : ", '") + estimator->name() + "'";
+      case ErrorEstimator::energy:
+        return std::make_unique<ExtrapolationEnergy>();
+      case ErrorEstimator::ren:
+        return std::make_unique<ExtrapolationRen>();
+      case ErrorEstimator::exact:
+        return std::make_unique<ExactEnergy>();
+      case ErrorEstimator::degree_extrapolation:
+        return std::make_unique<DegreeExtrapolation>();
+      case ErrorEstimator::local_degree_extrapolation:
+        return std::make_unique<LocalDegreeExtrapolation>();
+      case ErrorEstimator::richardson:
+        return std::make_unique<Richardson>();
+      case ErrorEstimator::averaging:
+        return std::make_unique<Averaging>();
+      case ErrorEstimator::spr:
+        return std::make_unique<PatchRecovery>();
+      case ErrorEstimator::residual:
+        return std::make_unique<Residual>();
+      case ErrorEstimator::interpolation:
+        return std::make_unique<Interpolation>();
+      case ErrorEstimator::goal:
+        return std::make_unique<GoalOriented>();
+      case ErrorEstimator::equilibrated:
+        return std::make_unique<Equilibrated>();
       }
-    throw core::InputError("There is no error estimator '" + name + "'. Choose one of " + valid
-                           + ".");
-  }
-
-
-
-  std::string
-  estimator_name(const scene::AdaptivityParameters::Driver driver)
-  {
-    using Driver = scene::AdaptivityParameters::Driver;
-    switch (driver)
-      {
-      case Driver::ren:
-        return ExtrapolationRen().name();
-      case Driver::exact:
-        return ExactEnergy().name();
-      case Driver::energy:
-        break;
-      }
-    return ExtrapolationEnergy().name();
+    throw std::logic_error("Not an error estimator.");
   }
 } // namespace tetradapt::estimate

@@ -1,47 +1,18 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "tetradapt/estimate/estimator.h"
+#include "tetradapt/estimate/extrapolation.h"
 
 namespace tetradapt::estimate
 {
-  std::string
-  ExactEnergy::name() const
+  EstimatorTraits
+  ExactEnergy::traits() const
   {
-    return "exact energy";
+    EstimatorTraits traits;
+    traits.name          = "exact energy";
+    traits.documentation = "Energy norm of the true error, for scenes that give the exact "
+                           "displacement.";
+    traits.needs_exact_displacement = true;
+    return traits;
   }
-
-
-
-  std::string
-  ExactEnergy::documentation() const
-  {
-    return "Energy norm of the true error, for scenes that give the exact displacement.";
-  }
-
-
-
-  bool
-  ExactEnergy::needs_reference() const
-  {
-    return false;
-  }
-
-
-
-  bool
-  ExactEnergy::needs_exact_displacement() const
-  {
-    return true;
-  }
-
-
-
-  bool
-  ExactEnergy::is_energy_norm() const
-  {
-    return true;
-  }
-
-
 
   Estimate
   ExactEnergy::estimate(const EstimateInput &input) const

@@ -88,8 +88,10 @@ namespace tetradapt::compare
   class CellStress
   {
   public:
-    /** Keeps references. */
-    CellStress(const mesh::NodalField &u_h, const mechanics::MaterialMap &materials);
+    /** Keeps references. @param with_thermal_strain false: C : eps(u_h) alone. */
+    CellStress(const mesh::NodalField       &u_h,
+               const mechanics::MaterialMap &materials,
+               bool                          with_thermal_strain = true);
 
     const CellMaterials &
     materials() const
@@ -100,7 +102,7 @@ namespace tetradapt::compare
     bool
     has_thermal_strain() const
     {
-      return material_map.has_thermal_strain();
+      return thermal;
     }
 
     /** C : eps(u_h) in @p cell: one stress (degree 1) or four, at its vertices. */
@@ -121,7 +123,7 @@ namespace tetradapt::compare
       for (unsigned int a = 0; a < 6; ++a)
         stress[a]
           = linear ? b[0] * s[a] + b[1] * s[6 + a] + b[2] * s[12 + a] + b[3] * s[18 + a] : s[a];
-      if (has_thermal_strain())
+      if (thermal)
         subtract_thermal(cell, point, stress);
     }
 
@@ -134,6 +136,7 @@ namespace tetradapt::compare
     const mechanics::MaterialMap &material_map;
     CellMaterials                 cell_materials;
     bool                          linear; ///< in a cell; else constant
+    bool                          thermal;
     std::vector<double>           values;
   };
 } // namespace tetradapt::compare

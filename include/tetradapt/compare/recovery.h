@@ -54,6 +54,32 @@ namespace tetradapt::compare
           add_polynomial<2>(patches.of_cell[cell][i], mesh.cells[cell][i], b[i], point, stress);
     }
 
+    /** The patches of the vertices of @p cell. */
+    const std::array<unsigned int, 4> &
+    patches_of_cell(const unsigned int cell) const
+    {
+      return patches.of_cell[cell];
+    }
+
+    /**
+     * The highest derivatives of a patch's polynomial, which are constant.
+     * @param result for degree 1 the derivatives by x, y, z, three times six numbers; for
+     *        degree 2 those by xx, yy, zz, xy, yz, zx, six times six.
+     */
+    void
+    highest_derivatives(const unsigned int patch, double (*result)[6]) const
+    {
+      const unsigned int begin = linear ? 1 : 4, end = linear ? 4 : 10;
+      const double      *polynomial = &polynomials[std::size_t(patch) * (1 + 6 * end)];
+      for (unsigned int k = begin; k < end; ++k)
+        {
+          const double factor
+            = linear ? 1. / polynomial[0] : (k < 7 ? 2. : 1.) / (polynomial[0] * polynomial[0]);
+          for (unsigned int c = 0; c < 6; ++c)
+            result[k - begin][c] = factor * polynomial[1 + 6 * k + c];
+        }
+    }
+
   private:
     /** Adds @p factor times the polynomial of a patch at @p point. */
     template <unsigned int degree>

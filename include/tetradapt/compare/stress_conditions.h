@@ -33,9 +33,17 @@ namespace tetradapt::compare
     struct Face
     {
       double       matrix[6][6];
+      unsigned int local_face; ///< of its cell: the vertex that it lies opposite
       unsigned int n_points;
-      Point<3>     points[3];
-      double       right[3][6]; ///< matrix s_x
+      /** The centre; or three points, each nearer to one of the vertices in
+       * mesh::face_vertices. */
+      Point<3> points[3];
+      double   right[3][6]; ///< matrix s_x
+
+      /** matrix s_x at any point of the face, continued from the points as a constant
+       * or a linear function. */
+      void
+      right_at(const mesh::Barycentric &b, double *result) const;
     };
 
     /** For the mesh that @p u_h lives on: one point a face for degree 1, three for

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/estimate/residual.h"
+
+#include "tetradapt/compare/cell_stress.h"
+#include "tetradapt/compare/given_loads.h"
+#include "tetradapt/compare/stress_difference.h"
+#include "tetradapt/mesh/face_table.h"
+
+namespace tetradapt::estimate
+{
+  namespace
+  {
+    using compare::CellStress;
+    using compare::ElasticMatrices;
+    using compare::GivenLoads;
+    using compare::stress_index;
+    using dealii::Point;
+    using dealii::Tensor;
+
+    /** The force per area of a stress on a plane. */
+    Tensor<1, 3>
+    traction(const double *stress, const Tensor<1, 3> &normal)
+    {
+      Tensor<1, 3> result;
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = 0; j < 3; ++j)
+          result[i] += stress[stress_index[i][j]] * normal[j];
+      return result;
+    }
+
+    /** Adds factor * C_ijkl n_j n_l, the traction that a jump a of the gradient's normal
+     * derivative causes. */
+    void
+    add_acoustic_tensor(const double           factor,
+                        const ElasticMatrices &matrices,
+                        const Tensor<1, 3>    &n,
+                        double (&result)[3][3])
+    {
+      // Column k of N is the strain of a (x) n for the unit vector a = e_k.
+      for (unsigned int k = 0; k < 3; ++k)
+        {
+          double column[6];
+          for (unsigned int a = 0; a < 6; ++a)
+            {
+              column[a] = 0.;
+              for (unsigned int l = 0; l < 3; ++l)
+                column[a] += matrices.stiffness[a][stress_index[k][l]] * n[l];
+            }
+          const Tensor<1, 3> t = traction(column, n);
+          for (unsigned int i = 0; i < 3; ++i)
+            result[i][k] += factor * t[i];
+        }
+    }
+
+    /** v . A^-1 v for a symmetric positive A. */
+    class InverseNorm
+    {
+    public:
+      explicit InverseNorm(const double (&A)[3][3])
+      {
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int j = 0; j < 3; ++j)
+            {
+              const unsigned int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
+              const unsigned int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+              cofactors[i][j] = A[i1][j1] * A[i2][j2] - A[i1][j2] * A[i2][j1];
+            }
+        determinant
+          = A[0][0] * cofactors[0][0] + A[0][1] * cofactors[0][1] + A[0][2] * cofactors[0][2];
+      }
+
+      double
+      square(const Tensor<1, 3> &v) const
+      {
+        double sum = 0.;
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int j = 0; j < 3; ++j)
+            sum += v[i] * cofactors[i][j] * v[j];
+        return sum / determinant;
+      }
+
+    private:
+      double cofactors[3][3], determinant;
+    };
+
+    /** The squared indicators, term by term. */
+    class ResidualTerms
+    {
+    public:
+      ResidualTerms(const mesh::NodalField &u_h, const CellStress &stress, const GivenLoads &loads)
+        : mesh(u_h.mesh()), degree(u_h.degree()), stress(stress), loads(loads),
+          constant(1. / (24. * u_h.degree())), squares(u_h.mesh().n_cells(), 0.)
+      {
+      }
+
+      /** constant h_K^2 / mu int_K |f + div s_h|^2. */
+      void
+      add_inside(const unsigned int cell)
+      {
+        const Tensor<1, 3> divergence = stress_divergence(cell);
+        const auto        &rule       = compare::tet_quadrature(2);
+        const double       volume     = mesh::cell_volume(mesh, cell);
+        double             sum        = 0.;
+        for (unsigned int q = 0; q < rule.points.size(); ++q)
+          {
+            Tensor<1, 3> r = divergence;
+            if (loads.has_body_force())
+              r += loads.body_force(cell, compare::position(mesh, cell, rule.points[q]));
+            sum += rule.weights[q] * r.norm_square();
+          }
+        double area = 0.;
+        for (const auto &v : mesh::face_vertices)
+          area += area_vector(cell, v).norm();
+        const double h = 12. * volume / area; // three times the volume over the mean area
+        squares[cell] += constant * h * h / stress.materials()[cell].shear_modulus * sum * volume;
+      }
+
+      /** The face @p local of @p cell, between it and @p neighbor. */
+      void
+      add_interior_face(const unsigned int cell,
+                        const unsigned int local,
+                        const unsigned int neighbor)
+      {
+        const FacePlace place   = face_place(cell, local);
+        double          Q[3][3] = {};
+        add_acoustic_tensor(0.5, stress.materials()[cell], place.normal, Q);
+        add_acoustic_tensor(0.5, stress.materials()[neighbor], place.normal, Q);
+        const InverseNorm norm(Q);
+        const bool        varies = degree == 2 || stress.has_thermal_strain();
+        double            sum    = 0.;
+        for (unsigned int q = 0; q < (varies ? 3 : 1); ++q)
+          {
+            double mine[6], other[6];
+            stress.at(cell, place.barycentric[q], place.points[q], mine);
+            stress.at(neighbor,
+                      varies ? mesh::barycentric_coordinates(mesh, neighbor, place.points[q])
+                             : place.barycentric[q], // a constant stress does not ask
+                      place.points[q],
+                      other);
+            for (unsigned int c = 0; c < 6; ++c)
+              mine[c] -= other[c];
+            sum += norm.square(traction(mine, place.normal)) / (varies ? 3. : 1.);
+          }
+        // Heights 3 V / area, times the area.
+        squares[cell] += constant * 3. * mesh::cell_volume(mesh, cell) * sum;
+        squares[neighbor] += constant * 3. * mesh::cell_volume(mesh, neighbor) * sum;
+      }
+
+      /** The face @p local of @p cell, listed as boundary face @p face. */
+      void
+      add_boundary_face(const unsigned int cell, const unsigned int local, const unsigned int face)
+      {
+        const unsigned char known = loads.known_components(face);
+        if (known == 0)
+          return;
+        const FacePlace place   = face_place(cell, local);
+        double          Q[3][3] = {};
+        add_acoustic_tensor(1., stress.materials()[cell], place.normal, Q);
+        const InverseNorm norm(Q);
+        double            sum = 0.;
+        for (unsigned int q = 0; q < 3; ++q)
+          {
+            double s[6];
+            stress.at(cell, place.barycentric[q], place.points[q], s);
+            Tensor<1, 3> missing = -traction(s, place.normal);
+            if (loads.has_traction(face))
+              missing += loads.traction(face, place.points[q], place.normal);
+            for (unsigned int c = 0; c < 3; ++c)
+              if ((known >> c & 1) == 0)
+                missing[c] = 0.;
+            sum += norm.square(missing) / 3.;
+          }
+        squares[cell] += 2. * constant * 3. * mesh::cell_volume(mesh, cell) * sum;
+      }
+
+      std::vector<double> &
+      squared_indicators()
+      {
+        return squares;
+      }
+
+    private:
+      /** The rule of degree 2 with three points inside of a face. */
+      struct FacePlace
+      {
+        Tensor<1, 3>      normal; ///< out of the cell
+        mesh::Barycentric barycentric[3];
+        Point<3>          points[3];
+      };
+
+      Tensor<1, 3>
+      area_vector(const unsigned int cell, const std::array<unsigned int, 3> &v) const
+      {
+        const auto &points = mesh.points;
+        const auto &c      = mesh.cells[cell];
+        return 0.5
+               * dealii::cross_product_3d(points[c[v[1]]] - points[c[v[0]]],
+                                          points[c[v[2]]] - points[c[v[0]]]);
+      }
+
+      FacePlace
+      face_place(const unsigned int cell, const unsigned int local) const
+      {
+        FacePlace   place;
+        const auto &v = mesh::face_vertices[local];
+        place.normal  = area_vector(cell, v);
+        place.normal /= place.normal.norm();
+        for (unsigned int q = 0; q < 3; ++q)
+          {
+            place.barycentric[q].fill(0.);
+            for (unsigned int i = 0; i < 3; ++i)
+              place.barycentric[q][v[i]] = i == q ? 2. / 3. : 1. / 6.;
+            place.points[q] = compare::position(mesh, cell, place.barycentric[q]);
+          }
+        return place;
+      }
+
+      Tensor<1, 3>
+      stress_divergence(const unsigned int cell) const
+      {
+        Tensor<1, 3> result;
+        if (degree == 1 && !stress.has_thermal_strain())
+          return result;
+        const auto g = mesh::barycentric_gradients(mesh, cell);
+        for (unsigned int i = 0; i < 4; ++i)
+          {
+            mesh::Barycentric b{{0., 0., 0., 0.}};
+            b[i] = 1.;
+            double s[6]; // a thermal stress is taken as linear between the vertices
+            stress.at(cell, b, mesh.points[mesh.cells[cell][i]], s);
+            result += traction(s, g[i]);
+          }
+        return result;
+      }
+
+      const mesh::TetMesh &mesh;
+      unsigned int         degree;
+      const CellStress    &stress;
+      const GivenLoads    &loads;
+      double               constant;
+      std::vector<double>  squares;
+    };
+  } // namespace
+
+  EstimatorTraits
+  Residual::traits() const
+  {
+    EstimatorTraits traits;
+    traits.name          = "residual";
+    traits.documentation = "Element residuals, jumps of the traction and what is missing to given "
+                           "tractions, with the constants of Kelly, Gago, Zienkiewicz and Babuska "
+                           "(1983). Bounds the energy norm of the error up to a constant that it "
+                           "does not know.";
+    return traits;
+  }
+
+  Estimate
+  Residual::estimate(const EstimateInput &input) const
+  {
+    const mesh::NodalField       &u_h          = input.comparison.displacement();
+    const mesh::TetMesh          &mesh         = u_h.mesh();
+    const mechanics::MaterialMap &materials    = input.comparison.material_map();
+    const MPI_Comm                communicator = input.comparison.mpi_communicator();
+    const CellStress              stress(u_h, materials);
+    const GivenLoads              loads(input.scene, materials, mesh);
+    ResidualTerms                 terms(u_h, stress, loads);
+    compare::together(communicator, [&] {
+      const compare::Slice slice   = compare::own_slice(mesh.n_cells(), communicator);
+      const unsigned int   n_slots = 4 * mesh.n_cells();
+      if (loads.has_body_force() || u_h.degree() == 2 || stress.has_thermal_strain())
+        for (unsigned int cell = slice.begin; cell < slice.end; ++cell)
+          terms.add_inside(cell);
+      mesh::FaceTable(mesh).for_each_triangle(
+        [&](const mesh::FaceTable::Entry *first, const mesh::FaceTable::Entry *last) {
+          const unsigned int cell = first->slot / 4;
+          if (last - first != 2 || cell < slice.begin || cell >= slice.end)
+            return;
+          if (first[1].slot < n_slots)
+            terms.add_interior_face(cell, first->slot % 4, first[1].slot / 4);
+          else
+            terms.add_boundary_face(cell, first->slot % 4, first[1].slot - n_slots);
+        });
+    });
+    Estimate result;
+    result.indicators = std::move(terms.squared_indicators());
+    compare::sum_over_ranks(result.indicators, communicator);
+    for (double &indicator : result.indicators)
+      indicator = std::sqrt(std::max(indicator, 0.));
+    result.global = compare::root_of_squares(result.indicators);
+    return result;
+  }
+} // namespace tetradapt::estimate
