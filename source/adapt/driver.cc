@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/adapt/driver.h"
 
-#include "tetradapt/adapt/cycle_errors.h"
-#include "tetradapt/compare/transfer.h"
+#include "tetradapt/adapt/cycle_estimates.h"
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/on_first_rank.h"
-#include "tetradapt/estimate/estimator.h"
-#include "tetradapt/mesh/mesh_broadcast.h"
-#include "tetradapt/mesh/mesh_factory.h"
-#include "tetradapt/mesh/red_refinement.h"
-#include "tetradapt/mesh/tetgen.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +44,8 @@ namespace tetradapt::adapt
                  MeshDescription                describe_mesh)
     : scene(scene), plan(plan), communicator(communicator), log(log), timer(timer),
       observers(observers), describe_mesh(std::move(describe_mesh)),
-      drive(estimate::drive_of(scene))
+      drive(estimate::drive_of(scene)), keeps_system(needs_system(scene, plan)),
+      mesh_maker(scene, communicator, log)
   {
   }
 
@@ -67,15 +62,14 @@ namespace tetradapt::adapt
     StopDecision decision;
     for (unsigned int number = 0; !decision.stop(); ++number)
       {
-        Cycle cycle = solve_cycle(number);
-        compare_and_estimate(cycle);
+        Cycle      cycle    = solve_cycle(number);
+        const bool rejected = is_rejected(cycle);
+        if (!rejected)
+          compare_and_estimate(cycle);
+        set_seconds(cycle.record);
         history.push_back(cycle.record);
         core::on_first_rank(communicator, [&]() { announce(cycle); });
-        decision = decide(cycle);
-        for (const auto &warning : decision.warnings)
-          log.warning("cycle " + std::to_string(number) + ": " + warning);
-        if (!decision.stop())
-          decision = next_mesh(cycle);
+        decision = rejected ? fall_back() : finish(std::move(cycle));
       }
     if (first)
       for (Observer *observer : observers)
@@ -91,13 +85,21 @@ namespace tetradapt::adapt
   {
     const auto scope = timer.scope("mesh");
     log.progress("making the mesh");
-    mesh = mesh::make_on_first_rank(communicator,
-                                    [&]() { return mesh::make_mesh(scene, number, log); });
+    use(mesh_maker.initial(number));
     // The reference keeps the first mesh's map; a later mesh may have no region
     // that this one does not know.
     if (materials == nullptr)
       materials = std::make_unique<mechanics::MaterialMap>(scene, *mesh);
+    if (number == 0 && plan.needs(Plan::sizing))
+      {
+        const std::string reason = scene.adaptivity.safeguard ? why_energy_cannot_tell(scene, *mesh)
+                                                              : "Adaptivity/Safeguard = no";
+        is_tested                = reason.empty();
+        if (!is_tested)
+          log.info("Meshes are accepted without a look at their energy: " + reason + ".");
+      }
     start.reset();
+    predicted_error = 0.;
     log.info((number == 0 ? "Initial mesh: " : "Mesh " + std::to_string(number) + ": ")
              + describe_mesh(*mesh));
   }
@@ -141,17 +143,35 @@ namespace tetradapt::adapt
   {
     Cycle cycle;
     cycle.record.cycle = number;
+    cycle.record.mesh  = current.record;
     {
-      const auto scope = timer.scope("solve");
-      cycle.solution   = solve::solve_static(
-        scene, *materials, mesh, scene.degree, communicator, in_cycle(number), start.get());
+      const auto                scope = timer.scope("solve");
+      solve::StaticSystem::Stop stop;
+      if (scene.solver.stopping == scene::SolverParameters::Stopping::discretisation)
+        stop.algebraic_error = scene.solver.algebraic_fraction * predicted_error;
+      const auto system = std::make_shared<solve::StaticSystem>(
+        scene, *materials, mesh, scene.degree, communicator, in_cycle(number));
+      cycle.solution = system->solve(start.get(), stop);
+      // The energy is 2 F - a without displacements that are prescribed: StaticSolution.
+      cycle.energy = {system->prescribed().is_homogeneous()
+                        ? -0.5 * cycle.solution.energy
+                        : 0.5 * cycle.solution.energy - cycle.solution.external_work,
+                      cycle.solution.algebraic_error};
+      if (keeps_system)
+        cycle.solution.system = system;
     }
     cycle.record.points           = mesh->n_points();
     cycle.record.tets             = mesh->n_cells();
     cycle.record.dofs             = cycle.solution.n_dofs;
+    cycle.record.energy           = cycle.solution.energy;
     cycle.record.strain_energy    = cycle.solution.strain_energy;
     cycle.record.max_displacement = largest_norm(cycle.solution.displacement->values);
     cycle.record.iterations       = cycle.solution.iterations;
+    if (cycle.solution.iterations > 0)
+      {
+        cycle.record.iterations_to_tolerance = cycle.solution.iterations_to_tolerance;
+        cycle.record.algebraic_error         = cycle.solution.algebraic_error;
+      }
     if (!std::isfinite(cycle.record.strain_energy) || !std::isfinite(cycle.record.max_displacement))
       throw core::NumericalError(
         "The solution is not finite. Look at the size of the loads and material constants: their "
@@ -161,27 +181,55 @@ namespace tetradapt::adapt
     return cycle;
   }
 
+  bool
+  Driver::is_rejected(Cycle &cycle)
+  {
+    if (!accepted || !is_tested)
+      return false;
+    const EnergyTest test = compare_energies(accepted->energy, cycle.energy, current.swept);
+    if (!test.is_worse())
+      return false;
+    std::ostringstream text;
+    text << "Cycle " << cycle.record.cycle << ": with " << cycle.record.tets
+         << " tetrahedra the potential energy is " << cycle.energy.potential << ", above the "
+         << accepted->energy.potential << " of cycle " << accepted->record.cycle << " with "
+         << accepted->record.tets;
+    if (n_rejected == 2)
+      {
+        // Even where every tetrahedron was cut; then it is not the mesh.
+        log.warning(text.str()
+                    + ", although every tetrahedron of that was cut into eight: the loads may "
+                      "not be resolved by the mesh. The cycle is kept.");
+        return false;
+      }
+    log.warning(text.str() + ": the solution is worse, and the mesh is rejected.");
+    cycle.record.acceptance = Acceptance::rejected;
+    return true;
+  }
+
   void
   Driver::compare_and_estimate(Cycle &cycle)
   {
     {
       const auto scope = timer.scope("estimate");
       in_cycle(cycle.record.cycle).progress("comparing and estimating");
-      const MeasuredErrors measured = measure_errors({scene, plan, drive, reference.get()},
-                                                     cycle.solution.energy,
-                                                     *cycle.comparison,
-                                                     cycle.record);
-      cycle.true_energy_error       = measured.true_energy_error;
+      levels.push_back({cycle.solution.n_dofs, cycle.solution.energy});
+      MeasuredErrors measured     = measure_errors({scene, plan, drive, reference.get()},
+                                               {cycle.solution, *cycle.comparison, levels},
+                                               cycle.record);
+      cycle.true_energy_error     = measured.true_energy_error;
+      cycle.wanted_indicator_norm = measured.wanted_indicator_norm;
+      cycle.indicators            = std::move(measured.indicators);
       if (!measured.warning.empty())
         log.warning(measured.warning);
-      if (plan.needs(Plan::marking) || plan.needs(Plan::sizing))
-        cycle.indicators
-          = estimate::make_estimator(estimate::estimator_name(scene.adaptivity.driver))
-              ->estimate({*cycle.comparison})
-              .indicators;
     }
-    // Seconds since the last cycle ended, so that a row tells what the cycle cost.
-    CycleRecord &record     = cycle.record;
+    cycle.solution.system.reset();
+  }
+
+  void
+  Driver::set_seconds(CycleRecord &record) const
+  {
+    // Since the last cycle ended, so that a row tells what the cycle cost.
     record.seconds_mesh     = timer.wall("mesh");
     record.seconds_solve    = timer.wall("solve");
     record.seconds_estimate = timer.wall("estimate") + timer.wall("marking");
@@ -198,20 +246,29 @@ namespace tetradapt::adapt
   void
   Driver::announce(const Cycle &cycle)
   {
-    const auto                 scope = timer.scope("output");
+    const auto                 scope       = timer.scope("output");
+    const bool                 is_accepted = cycle.record.acceptance == Acceptance::accepted;
     const std::vector<double> *ren
-      = plan.needs(Plan::nodal_ren) ? &cycle.comparison->ren().values : nullptr;
+      = is_accepted && plan.needs(Plan::nodal_ren) ? &cycle.comparison->ren().values : nullptr;
+    std::vector<double> sizes;
+    if (plan.needs(Plan::size_field_output))
+      sizes = obtained_sizes(*mesh);
     const CycleEvent event{cycle.record,
                            *cycle.solution.displacement,
                            *materials,
                            cycle.indicators.empty() ? nullptr : &cycle.indicators,
-                           ren};
+                           ren,
+                           sizes.empty() ? nullptr : &sizes};
     for (Observer *observer : observers)
       observer->cycle_done(event);
     std::ostringstream text;
     text << "Cycle " << cycle.record.cycle << ": " << cycle.solution.solver;
     if (cycle.record.iterations > 0)
       text << ", " << cycle.record.iterations << " iterations";
+    if (cycle.record.iterations_to_tolerance > cycle.record.iterations)
+      text << " instead of about " << cycle.record.iterations_to_tolerance
+           << " to Solver/Tolerance: what is left, " << *cycle.record.algebraic_error
+           << " in the energy norm, is small beside the error of the mesh";
     log.info(text.str());
   }
 
@@ -226,135 +283,35 @@ namespace tetradapt::adapt
     context.elapsed_seconds   = timer.total_wall();
     if (reference != nullptr)
       {
-        context.reference_tets   = reference->displacement->mesh().n_cells();
-        context.reference_degree = reference->displacement->degree();
+        context.reference_tets   = reference->displacement.n_tetrahedra();
+        context.reference_degree = reference->displacement.degree();
       }
     // Clocks differ from rank to rank; the decision must not.
     core::broadcast_bytes(&context.elapsed_seconds, sizeof(double), communicator);
-    return decide_stop(scene.adaptivity, context, history);
+    std::vector<CycleRecord> cycles;
+    for (const CycleRecord &record : history)
+      if (record.acceptance == Acceptance::accepted)
+        cycles.push_back(record);
+    return decide_stop(scene.adaptivity, context, cycles);
   }
 
   StopDecision
-  Driver::next_mesh(Cycle &cycle)
+  Driver::finish(Cycle cycle)
   {
-    switch (scene.adaptivity.strategy)
+    StopDecision decision = decide(cycle);
+    for (const auto &warning : decision.warnings)
+      log.warning("cycle " + std::to_string(cycle.record.cycle) + ": " + warning);
+    if (decision.stop())
+      return decision;
+    n_rejected = 0;
+    accepted.reset();
+    decision = next_mesh(cycle);
+    if (is_tested && !decision.stop())
       {
-      case Strategy::none:
-        return decide_new_mesh(mesh->n_cells(), mesh->n_cells());
-      case Strategy::mesh_list:
-        make_initial_mesh(cycle.record.cycle + 1);
-        return {};
-      case Strategy::uniform:
-        {
-          const auto scope = timer.scope("mesh");
-          mesh             = std::make_shared<mesh::TetMesh>(
-            mesh::red_refine(*mesh,
-                             scene.degree == 2 ? &cycle.solution.displacement->edges() : nullptr));
-          prepare_start(cycle);
-          return {};
-        }
-      case Strategy::adaptive:
-        return adapt_mesh(cycle);
+        // What a rejection needs, and no more.
+        cycle.comparison.reset();
+        accepted = std::move(cycle);
       }
-    return {};
-  }
-
-  double
-  Driver::wanted_indicator_norm(const Cycle &cycle) const
-  {
-    const CycleRecord &record    = cycle.record;
-    const double       tolerance = scene.adaptivity.tolerance;
-    if (tolerance == 0. || scene.adaptivity.driver == scene::AdaptivityParameters::Driver::ren
-        || !record.energy_error || record.relative_energy_error.value_or(0.) == 0.)
-      return 0.;
-    const double norm = *record.energy_error / *record.relative_energy_error;
-    if (cycle.true_energy_error)
-      return tolerance * norm;
-    // The reference's own error is part of what the user is told.
-    const double own = record.reference_error.value_or(0.);
-    return own < tolerance ? std::sqrt(tolerance * tolerance - own * own) * norm : 0.;
-  }
-
-  SizeField
-  Driver::make_size_field(const Cycle &cycle) const
-  {
-    SizeFieldOptions options
-      = make_size_field_options(scene.adaptivity, scene.tetgen, scene.degree, mesh->n_cells());
-    if (const auto marker = make_marker(scene.adaptivity))
-      return marked_size_field(*mesh, marker->mark(cycle.indicators, *mesh), options);
-    options.obtained_over_predicted = obtained_over_predicted;
-    options.tolerance               = wanted_indicator_norm(cycle);
-    return optimal_size_field(*mesh,
-                              cycle.indicators,
-                              options,
-                              scene.degree == 2 ? &cycle.solution.displacement->edges() : nullptr);
-  }
-
-  void
-  Driver::refine_mesh(const SizeField &field, unsigned int number)
-  {
-    const unsigned int old_tets = mesh->n_cells();
-    in_cycle(number).progress("TetGen refines " + std::to_string(old_tets) + " tetrahedra");
-    const mesh::Tetgen tetgen(scene.tetgen);
-    const auto         old_mesh = mesh;
-    mesh                        = mesh::make_on_first_rank(communicator, [&]() {
-      mesh::TetgenReport report;
-      mesh::TetMesh      refined = tetgen.refine(*old_mesh, field.sizing, &report);
-      mesh::warn_of_unmet_wishes(report, log);
-      return refined;
-    });
-    std::ostringstream text;
-    text << "Refined from " << old_tets << " to " << mesh->n_cells() << " tetrahedra ("
-         << std::lround(field.predicted_tets) << " predicted): " << describe_mesh(*mesh);
-    log.info(text.str());
-  }
-
-  StopDecision
-  Driver::adapt_mesh(Cycle &cycle)
-  {
-    SizeField field;
-    {
-      const auto scope = timer.scope("marking");
-      in_cycle(cycle.record.cycle).progress("marking and sizing");
-      field = make_size_field(cycle);
-    }
-    const double largest = *std::max_element(cycle.indicators.begin(), cycle.indicators.end());
-    // Below this an error is rounding, and refining would chase noise.
-    const bool is_exact = cycle.record.relative_energy_error.value_or(1.) < 1e-10;
-    if (largest == 0. || is_exact || field.n_refined == 0)
-      return decide_nothing_to_refine(is_exact ? 0. : largest);
-
-    const auto         old_mesh = mesh;
-    const unsigned int old_tets = mesh->n_cells();
-    const bool         can_insist
-      = scene.adaptivity.marking == scene::AdaptivityParameters::Marking::optimal_size;
-    for (unsigned int attempt = 0; attempt < 4; ++attempt)
-      {
-        {
-          const auto scope = timer.scope("mesh");
-          refine_mesh(field, cycle.record.cycle + 1);
-        }
-        if (mesh->n_cells() != old_tets || !can_insist)
-          break;
-        // Sizes that are just not below what TetGen would split change nothing: the
-        // factor, learnt from a few cells, was too large.
-        mesh                    = old_mesh;
-        obtained_over_predicted = 0.5 * field.obtained_over_predicted;
-        const auto scope        = timer.scope("marking");
-        field                   = make_size_field(cycle);
-      }
-    obtained_over_predicted = next_obtained_over_predicted(field, mesh->n_cells());
-    prepare_start(cycle);
-    return decide_new_mesh(old_tets, mesh->n_cells());
-  }
-
-  void
-  Driver::prepare_start(Cycle &cycle)
-  {
-    // A small system is factorised, without a first iterate.
-    const auto scope = timer.scope("estimate");
-    if (mesh->n_points() > cycle.record.points && plan.needs(Plan::multigrid_solver))
-      start = std::make_unique<mesh::NodalField>(
-        compare::interpolate(*cycle.solution.displacement, cycle.comparison->locator(), mesh));
+    return decision;
   }
 } // namespace tetradapt::adapt

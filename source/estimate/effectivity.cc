@@ -60,7 +60,7 @@ namespace tetradapt::estimate
   std::optional<double>
   effectivity(const std::optional<double> &estimate, const std::optional<double> &true_error)
   {
-    if (!estimate || !true_error || !(*true_error > 0.))
+    if (!estimate || !true_error || *true_error == 0. || !std::isfinite(*true_error))
       return std::nullopt;
     return *estimate / *true_error;
   }

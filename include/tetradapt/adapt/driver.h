@@ -2,6 +2,8 @@
 #ifndef tetradapt_adapt_driver_h
 #define tetradapt_adapt_driver_h
 
+#include "tetradapt/adapt/acceptance.h"
+#include "tetradapt/adapt/mesh_maker.h"
 #include "tetradapt/adapt/observer.h"
 #include "tetradapt/adapt/size_field.h"
 #include "tetradapt/adapt/stopping.h"
@@ -11,6 +13,7 @@
 #include "tetradapt/core/stage_timer.h"
 #include "tetradapt/estimate/comparison.h"
 #include "tetradapt/estimate/effectivity.h"
+#include "tetradapt/estimate/estimator.h"
 #include "tetradapt/scene/plan.h"
 #include "tetradapt/solve/static_solution.h"
 
@@ -18,13 +21,18 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace tetradapt::adapt
 {
   /**
    * Runs a scene: solve, compare, estimate, refine, until a stopping rule holds.
-   * Does only what the plan lists as needed. Every rank of the communicator makes
-   * one and calls run(); observers are told on the first rank only.
+   * Does only what the plan lists as needed.
+   *
+   * An adaptive cycle whose potential energy is not below that of the cycle before is
+   * rejected: another mesh is made from the mesh before, at first refined more strongly,
+   * then uniformly. A rejected cycle stays in the records, without errors. Every rank of the
+   * communicator makes one and calls run(); observers are told on the first rank only.
    */
   class Driver
   {
@@ -53,7 +61,9 @@ namespace tetradapt::adapt
       solve::StaticSolution                 solution;
       std::unique_ptr<estimate::Comparison> comparison;
       std::vector<double>                   indicators;
-      bool true_energy_error = false; ///< energy_error is the true one
+      bool        true_energy_error     = false; ///< energy_error is the true one
+      double      wanted_indicator_norm = 0.;    ///< see MeasuredErrors
+      CycleEnergy energy;
     };
 
     void
@@ -62,23 +72,40 @@ namespace tetradapt::adapt
     make_reference();
     Cycle
     solve_cycle(unsigned int number);
+    /** Whether the cycle is worse than the one that its mesh was made from. */
+    bool
+    is_rejected(Cycle &cycle);
     void
     compare_and_estimate(Cycle &cycle);
+    void
+    set_seconds(CycleRecord &record) const;
     void
     announce(const Cycle &cycle);
     StopDecision
     decide(const Cycle &cycle) const;
+    /** Goes on after a finished cycle. */
+    StopDecision
+    finish(Cycle cycle);
     /** Replaces the mesh; the decision says why the loop ends if it cannot. */
     StopDecision
     next_mesh(Cycle &cycle);
     StopDecision
     adapt_mesh(Cycle &cycle);
+    /** Another mesh in the place of a rejected one. */
+    StopDecision
+    fall_back();
     SizeField
-    make_size_field(const Cycle &cycle) const;
-    double
-    wanted_indicator_norm(const Cycle &cycle) const;
+    make_size_field(const Cycle &cycle, bool stronger) const;
     void
-    refine_mesh(const SizeField &field, unsigned int number);
+    refine_mesh(Cycle &cycle, const SizeField &field, bool anew);
+    void
+    refine_uniformly(Cycle &cycle);
+    void
+    use(NewMesh made);
+    /** Foretells the error of the next cycle from this one's, given the factor by which
+     * it falls. */
+    void
+    predict_error(const CycleRecord &record, double factor);
     /** The log, its progress beginning with a cycle's number. */
     core::Log
     in_cycle(unsigned int number) const;
@@ -93,14 +120,23 @@ namespace tetradapt::adapt
     const std::vector<Observer *> &observers;
     MeshDescription                describe_mesh;
     estimate::Drive                drive;
+    bool                           keeps_system; ///< an estimator solves with it again
 
+    MeshMaker                                         mesh_maker;
+    NewMesh                                           current; ///< what is known of the mesh
     std::shared_ptr<const mesh::TetMesh>              mesh;
     std::unique_ptr<mechanics::MaterialMap>           materials;
     std::unique_ptr<compare::Reference>               reference;
     std::shared_ptr<const compare::ReferenceSampling> sampling;
     std::unique_ptr<mesh::NodalField>                 start; ///< first iterate of the next solve
     std::vector<CycleRecord>                          history;
-    double obtained_over_predicted = 0.; ///< see SizeFieldOptions
+    std::vector<estimate::EnergyLevel>                levels; ///< accepted meshes only
+    /** The cycle that the present mesh was made from, while it can be rejected. */
+    std::optional<Cycle> accepted;
+    unsigned int         n_rejected      = 0;          ///< since then
+    bool                 is_tested       = false;      ///< energies tell whether a mesh is better
+    double               predicted_error = 0.;         ///< of this cycle, energy norm; 0: unknown
+    double               obtained_over_predicted = 0.; ///< see SizeFieldOptions
   };
 } // namespace tetradapt::adapt
 

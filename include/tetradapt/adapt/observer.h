@@ -6,29 +6,93 @@
 #include "tetradapt/mesh/nodal_field.h"
 #include "tetradapt/scene/scene.h"
 
+#include <array>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace tetradapt::adapt
 {
+  /** What one estimator said in a cycle. */
+  struct EstimateRecord
+  {
+    std::string           name; ///< EstimatorTraits::name
+    scene::ErrorEstimator which          = scene::ErrorEstimator::spr;
+    bool                  is_energy_norm = true;
+    double                global         = 0.; ///< in the estimator's unit
+    std::optional<double> relative;    ///< over the energy norm of the solution, for an energy norm
+    std::optional<double> effectivity; ///< over the true error, where that is known
+    /** Of the local indices eta_K / e_K, where an exact displacement is known: the
+     * standard deviation of their natural logarithms, each weighted by e_K^2. 0: each cell's
+     * error is known up to one common factor. */
+    std::optional<double> spread;
+    double                seconds = 0.;
+  };
+
+  /** A goal's value in a cycle. */
+  struct GoalRecord
+  {
+    std::string           name;
+    double                value = 0.;
+    std::optional<double> exact;           ///< the scene's Exact value
+    std::optional<double> error;           ///< exact - value
+    std::optional<double> estimated_error; ///< with its sign, where the estimator 'goal' ran
+    std::optional<double> effectivity;     ///< estimated over true error
+  };
+
+  /** How the mesh of a cycle came out beside what was asked for. */
+  struct MeshRecord
+  {
+    std::optional<double> requested_tets;          ///< as the size field foretold
+    unsigned long         unmet_sizes        = 0;  ///< cells more than twice as large as asked for
+    double                volume_drift       = 0.; ///< relative, against the first mesh
+    double                largest_projection = 0.; ///< farthest way of a point to the boundary
+    unsigned long         unprojected  = 0; ///< points that an inversion kept from going there
+    double                min_dihedral = 0., max_dihedral = 0.; ///< degrees
+    double                max_aspect_ratio = 0.;
+    /** Cells by their smallest dihedral angle: below 5, 10, 20, 30, 40, 50, 60, and
+     * above degrees. */
+    std::array<unsigned long, 8> dihedral_histogram{};
+    /** Boundary faces by id and cells by region, as one line. */
+    std::string census;
+  };
+
+  /** What became of a cycle's mesh. */
+  enum class Acceptance
+  {
+    accepted,
+    rejected ///< its energy was worse than the one before; another mesh followed
+  };
+
   /** The figures of one cycle. What a scene does not have stays empty. */
   struct CycleRecord
   {
     unsigned int          cycle  = 0;
     unsigned long         points = 0, tets = 0, dofs = 0;
     std::optional<double> mean_ren, max_ren;
-    /** Against the truth where one is given, else against the reference. */
+    /** Against the truth where one is given, else against the reference; the energy
+     * norm else as an estimator tells it. */
     std::optional<double> l2_error, relative_l2_error;
     std::optional<double> h1_error, relative_h1_error;
     std::optional<double> energy_error, relative_energy_error;
-    /** The estimator's global value, energy norm, absolute and relative. */
+    /** The difference to the reference, or without one the first estimator of the energy
+     * norm: absolute and relative. */
     std::optional<double> estimate, relative_estimate;
     /** The reference's own estimated relative energy error. */
     std::optional<double> reference_error;
     /** estimate / energy_error, where a truth is known. */
     std::optional<double> effectivity;
-    double                strain_energy    = 0.;
-    double                max_displacement = 0.;
-    unsigned int          iterations       = 0;
+    double                strain_energy           = 0.;
+    double                max_displacement        = 0.;
+    unsigned int          iterations              = 0;
+    unsigned int          iterations_to_tolerance = 0; ///< see solve::StaticSolution
+    std::optional<double> algebraic_error;             ///< energy norm
+    /** a(u_h,u_h). */
+    double                      energy     = 0.;
+    Acceptance                  acceptance = Acceptance::accepted;
+    std::vector<EstimateRecord> estimates; ///< the driver's first
+    std::vector<GoalRecord>     goals;
+    MeshRecord                  mesh;
     double seconds_mesh = 0., seconds_solve = 0., seconds_estimate = 0., seconds_total = 0.;
   };
 
@@ -40,6 +104,9 @@ namespace tetradapt::adapt
     const mechanics::MaterialMap &materials;
     const std::vector<double>    *indicators; ///< eta_K that drives, or null
     const std::vector<double>    *nodal_ren;  ///< one a node, or null
+    /** Wanted edge lengths at the mesh's points for the next mesh (in the last cycle:
+     * the lengths that the mesh has), or null. */
+    const std::vector<double> *node_sizes = nullptr;
   };
 
   /** Watches a run. Called on MPI rank 0 only. */

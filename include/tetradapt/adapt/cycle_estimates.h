@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_adapt_cycle_estimates_h
+#define tetradapt_adapt_cycle_estimates_h
+
+#include "tetradapt/adapt/cycle_errors.h"
+
+#include <optional>
+
+namespace tetradapt::adapt
+{
+  /** The error as it is known without any estimator, for effectivities. */
+  struct KnownError
+  {
+    std::optional<double>      global;          ///< energy norm
+    const std::vector<double> *cells = nullptr; ///< energy norm, one a cell, or null
+    /** The estimator that made it, for which an effectivity would say nothing. */
+    std::optional<scene::ErrorEstimator> source;
+  };
+
+  /**
+   * Runs the scene's estimators, the driver first, and fills record.estimates.
+   * @return the driver's indicators; empty if nothing drives.
+   */
+  std::vector<double>
+  run_estimators(const ErrorSources &sources,
+                 const SolvedCycle  &cycle,
+                 const KnownError   &known,
+                 CycleRecord        &record);
+
+  /** Whether an estimator of the scene solves with the solution's system again, so
+   * that it must be kept. */
+  bool
+  needs_system(const scene::Scene &scene, const scene::Plan &plan);
+
+  /** Evaluates the goals into record.goals, with what the estimator 'goal' said of
+   * its own. To be called after run_estimators(). Collective. */
+  void
+  evaluate_goals(const scene::Scene &scene, estimate::Comparison &comparison, CycleRecord &record);
+
+  /**
+   * How unevenly indicators follow the true local errors: the standard deviation of
+   * ln(eta_K / e_K), cells weighted by e_K^2. Cells where either is zero are left out;
+   * empty if none is left.
+   */
+  std::optional<double>
+  spread_of_local_indices(const std::vector<double> &indicators, const std::vector<double> &errors);
+} // namespace tetradapt::adapt
+
+#endif

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/adapt/cycle_estimates.h"
+
+#include "tetradapt/estimate/goal_functional.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace tetradapt::adapt
+{
+  namespace
+  {
+    using scene::ErrorEstimator;
+    using scene::Plan;
+
+    bool
+    is_driven(const scene::Plan &plan)
+    {
+      return plan.needs(Plan::marking) || plan.needs(Plan::sizing);
+    }
+
+    /** Estimators to run, the driver first. */
+    std::vector<ErrorEstimator>
+    wanted_estimators(const scene::Scene &scene, const bool driven)
+    {
+      std::vector<ErrorEstimator> wanted;
+      if (driven)
+        wanted.push_back(scene.adaptivity.driver);
+      for (const ErrorEstimator which : scene.estimation.estimators)
+        if (std::find(wanted.begin(), wanted.end(), which) == wanted.end())
+          wanted.push_back(which);
+      return wanted;
+    }
+
+    EstimateRecord
+    to_record(const estimate::EstimatorTraits &traits,
+              const estimate::Estimate        &estimate,
+              const double                     energy,
+              const KnownError                &known)
+    {
+      EstimateRecord record;
+      record.name           = traits.name;
+      record.is_energy_norm = traits.is_energy_norm;
+      record.global         = estimate.global;
+      if (!traits.is_energy_norm)
+        return record;
+      if (energy > 0.)
+        record.relative = estimate.global / std::sqrt(energy);
+      record.effectivity = estimate::effectivity(record.global, known.global);
+      if (known.cells != nullptr && estimate.indicators.size() == known.cells->size())
+        record.spread = spread_of_local_indices(estimate.indicators, *known.cells);
+      return record;
+    }
+  } // namespace
+
+  bool
+  needs_system(const scene::Scene &scene, const scene::Plan &plan)
+  {
+    for (const ErrorEstimator which : wanted_estimators(scene, is_driven(plan)))
+      if (estimate::make_estimator(which)->traits().needs_system)
+        return true;
+    return false;
+  }
+
+  void
+  evaluate_goals(const scene::Scene &scene, estimate::Comparison &comparison, CycleRecord &record)
+  {
+    for (const auto &goal : estimate::evaluate_goals(scene, comparison))
+      {
+        GoalRecord entry;
+        entry.name         = goal.name;
+        entry.value        = goal.value;
+        entry.exact        = goal.exact;
+        entry.error        = goal.error;
+        const bool is_main = scene.estimation.goal.empty() ? record.goals.empty()
+                                                           : goal.name == scene.estimation.goal;
+        for (const EstimateRecord &estimate : record.estimates)
+          if (is_main && estimate.which == ErrorEstimator::goal)
+            {
+              entry.estimated_error = estimate.global;
+              entry.effectivity     = estimate::effectivity(estimate.global, goal.error);
+            }
+        record.goals.push_back(entry);
+      }
+  }
+
+  std::optional<double>
+  spread_of_local_indices(const std::vector<double> &indicators, const std::vector<double> &errors)
+  {
+    double weight = 0., mean = 0., square = 0.;
+    for (std::size_t cell = 0; cell < errors.size(); ++cell)
+      {
+        if (!(indicators[cell] > 0.) || !(errors[cell] > 0.))
+          continue;
+        const double w      = errors[cell] * errors[cell];
+        const double value  = std::log(indicators[cell] / errors[cell]);
+        const double change = value - mean;
+        // Welford's update: the plain difference of squares loses digits.
+        weight += w;
+        mean += change * w / weight;
+        square += w * change * (value - mean);
+      }
+    if (weight == 0.)
+      return std::nullopt;
+    return std::sqrt(square / weight);
+  }
+
+  std::vector<double>
+  run_estimators(const ErrorSources &sources,
+                 const SolvedCycle  &cycle,
+                 const KnownError   &known,
+                 CycleRecord        &record)
+  {
+    using Clock                = std::chrono::steady_clock;
+    const bool          driven = is_driven(sources.plan);
+    std::vector<double> indicators;
+    for (const ErrorEstimator which : wanted_estimators(sources.scene, driven))
+      {
+        const auto start     = Clock::now();
+        const auto estimator = estimate::make_estimator(which);
+        const auto estimate
+          = estimator->estimate({cycle.comparison, sources.scene, cycle.solution, cycle.levels});
+        const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        const bool   drives  = driven && which == sources.scene.adaptivity.driver;
+        if (drives)
+          indicators = estimate.indicators;
+        if (estimate.missing)
+          continue;
+        const KnownError comparable = known.source == which ? KnownError() : known;
+        record.estimates.push_back(
+          to_record(estimator->traits(), estimate, cycle.solution.energy, comparable));
+        record.estimates.back().which   = which;
+        record.estimates.back().seconds = seconds;
+      }
+    return indicators;
+  }
+} // namespace tetradapt::adapt
