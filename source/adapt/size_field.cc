@@ -51,7 +51,8 @@ namespace tetradapt::adapt
                           const unsigned long                n_cells)
   {
     SizeFieldOptions options;
-    options.route = parameters.route;
+    options.route      = parameters.coarsening ? Route::node_sizes : parameters.route;
+    options.coarsening = parameters.coarsening;
     // Displacements converge one power of h faster than strains.
     options.rate
       = degree + (parameters.driver == scene::AdaptivityParameters::Driver::ren ? 1. : 0.);
@@ -76,6 +77,19 @@ namespace tetradapt::adapt
     if (!(field.predicted_tets > 0.))
       return 0.;
     return std::clamp(field.obtained_over_predicted * obtained / field.predicted_tets, 0.5, 3.);
+  }
+
+
+
+  double
+  default_obtained_over_predicted(const SizeFieldOptions &options)
+  {
+    // Measured with TetGen 1.5.0: on meshes made anew 1.3 to 1.6; over some hundred cycles
+    // of refinement, growth 2 to 4, on fields with singular edges and layers, 1.3 to 1.9
+    // with node sizes and 0.9 to 1.5 with volume constraints.
+    if (options.coarsening)
+      return 1.45;
+    return options.route == Route::node_sizes ? 1.5 : 1.2;
   }
 
 
@@ -233,7 +247,12 @@ namespace tetradapt::adapt
     field.node_sizes.assign(mesh.n_points(), no_size);
     for (unsigned int p = 0; p < mesh.n_points(); ++p)
       if (volumes[p] > 0.)
-        field.node_sizes[p] = refined[p] ? std::exp(logs[p] / volumes[p]) : kept_sizes[p];
+        field.node_sizes[p]
+          = refined[p] || options.coarsening ? std::exp(logs[p] / volumes[p]) : kept_sizes[p];
+    // A mesh made anew has more cells than the sizes of the old one have on average.
+    if (options.coarsening)
+      for (double &size : field.node_sizes)
+        size *= std::cbrt(default_obtained_over_predicted(options));
 
     if (field.n_refined > 0 && options.route == Route::node_sizes)
       field.sizing.node_sizes = field.node_sizes;

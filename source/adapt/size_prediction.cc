@@ -13,14 +13,6 @@ namespace tetradapt::adapt
   {
     /** For points without a cell; finite, as TetGen wants it. */
     constexpr double no_size = 1e100;
-
-    double
-    default_factor(const Route route)
-    {
-      // Measured over some hundred cycles with TetGen 1.5.0, growth 2 to 4, on
-      // fields with singular edges and layers: 1.3 to 1.9, 0.9 to 1.5.
-      return route == Route::node_sizes ? 1.5 : 1.2;
-    }
   } // namespace
 
 
@@ -32,7 +24,7 @@ namespace tetradapt::adapt
     : mesh(mesh), indicators(indicators), options(options),
       gradation(mesh, edges, options.gradation),
       factor(options.obtained_over_predicted > 0. ? options.obtained_over_predicted
-                                                  : default_factor(options.route)),
+                                                  : default_obtained_over_predicted(options)),
       volumes(mesh.n_cells()), sizes(mesh.n_cells()), log_ratios(mesh.n_cells()),
       point_volumes(mesh.n_points(), 0.), node_sizes(mesh.n_points())
   {
@@ -137,7 +129,8 @@ namespace tetradapt::adapt
   double
   SizePrediction::n_pieces(const unsigned int c) const
   {
-    return std::max(1., factor * density(c));
+    const double pieces = factor * density(c);
+    return options.coarsening ? pieces : std::max(1., pieces);
   }
 
 

@@ -139,9 +139,10 @@ namespace tetradapt::adapt
                     const ReferenceTrust        trust,
                     StopDecision               &decision)
     {
-      // An adaptive loop driven by the exact error does not use the reference.
+      // An adaptive loop that another estimator drives does not use the reference.
       const bool drives = parameters.strategy == Strategy::adaptive
-                          && parameters.driver != AdaptivityParameters::Driver::exact;
+                          && (parameters.driver == AdaptivityParameters::Driver::energy
+                              || parameters.driver == AdaptivityParameters::Driver::ren);
       // Who has turned the safeguard off gets the rules that were asked for and no others.
       const bool blind = trust == ReferenceTrust::saturated && !parameters.safeguard;
       const bool ends
@@ -319,6 +320,26 @@ namespace tetradapt::adapt
         decision.text
           = "Stopped without convergence: TetGen returned the same " + std::to_string(new_tets)
             + " tetrahedra (look at the cap on Steiner points and at the kept boundary).";
+      }
+    return decision;
+  }
+
+
+
+  StopDecision
+  decide_uniform_fallback(const AdaptivityParameters &parameters, const CycleRecord &last)
+  {
+    StopDecision decision;
+    if ((parameters.max_tets > 0 && 8 * last.tets > parameters.max_tets)
+        || (parameters.max_dofs > 0 && 8 * last.dofs > parameters.max_dofs))
+      {
+        decision.reason = StopReason::no_better_mesh;
+        decision.text   = "Stopped without convergence: two meshes made from that of cycle "
+                        + std::to_string(last.cycle)
+                        + " were worse by their energy, and cutting each of its "
+                        + std::to_string(last.tets)
+                        + " tetrahedra into eight would exceed the limits on tetrahedra or "
+                          "unknowns (look at the driver, the marking and the maximum ratio).";
       }
     return decision;
   }

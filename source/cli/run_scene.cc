@@ -10,6 +10,7 @@
 #include "tetradapt/report/output_directory.h"
 #include "tetradapt/report/plots.h"
 #include "tetradapt/report/results.h"
+#include "tetradapt/report/size_field_file.h"
 #include "tetradapt/report/vtu_series.h"
 #include "tetradapt/scene/plan.h"
 
@@ -51,6 +52,8 @@ namespace tetradapt::cli
         observers.push_back(std::make_unique<report::ResultsSummary>(tables, log));
         if (scene.output.plots)
           observers.push_back(std::make_unique<report::RunPlots>(directory.path(), log));
+        if (scene.output.size_field)
+          observers.push_back(std::make_unique<report::SizeFieldFile>(directory.path()));
         if (scene.output.vtu)
           observers.push_back(
             std::make_unique<report::VtuSeries>(directory.path(), scene.output.stress));

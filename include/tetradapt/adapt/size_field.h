@@ -49,6 +49,9 @@ namespace tetradapt::adapt
     double gradation         = 0.3;             ///< h(x) <= h(y) + g |x-y|; 0: none
     double reduction         = 0.5;             ///< marked cells: new over old size
     double radius_edge_ratio = 1.414;           ///< TetGen's -q, for the volume route
+    /** The next mesh fills the body anew, so that cells may grow; else they are only
+     * split. The route is by node sizes then. */
+    bool coarsening = false;
     /** Tetrahedra obtained over tetrahedra predicted; 0: what was measured for the
      * route on average. A caller that goes through several cycles can pass what
      * the last one told, next_obtained_over_predicted(). */
@@ -79,6 +82,10 @@ namespace tetradapt::adapt
     bool   tolerance_bound         = false; ///< the tolerance, not wanted_tets, decided
   };
 
+  /** The factor that is taken where options.obtained_over_predicted is 0. */
+  double
+  default_obtained_over_predicted(const SizeFieldOptions &options);
+
   /** The factor to pass as obtained_over_predicted in the next cycle, after TetGen
    * made @p obtained tetrahedra of @p field; within [0.5, 3], so that one strange
    * cycle does not spoil the next. */
@@ -106,7 +113,8 @@ namespace tetradapt::adapt
    * r^-3 cells of size r h_K keeps r^(2p) of its squared error). The scale s is found by bracketing
    * so that the prediction meets the wanted number; the prediction includes the
    * clamps, the gradation, and that TetGen's refinement never coarsens:
-   * N = sum_K max(1, mean over K of (h_K/h)^3).
+   * N = sum_K max(1, mean over K of (h_K/h)^3), without the maximum where the options
+   * allow coarsening.
    *
    * @param indicators e_K, one a cell; zeros are allowed.
    * @param edges of @p mesh; made here if null.
@@ -127,7 +135,8 @@ namespace tetradapt::adapt
    * alone, twice to four times as many cells appear, for less); other vertices get
    * a size at which TetGen splits no cell. No gradation, and predicted_tets counts
    * reduction^-3 a marked cell. Marked cells that would fall below min_size are
-   * left alone and counted in n_clamped.
+   * left alone and counted in n_clamped. Where the options allow coarsening, points of
+   * unmarked cells get the size that they have.
    */
   SizeField
   marked_size_field(const mesh::TetMesh    &mesh,

@@ -74,7 +74,7 @@ namespace tetradapt::adapt
     /** Mean over the cell of (h_K/h)^3, h linear between the vertices. */
     double
     density(unsigned int cell) const;
-    /** Cells that TetGen makes of one cell. */
+    /** Cells that TetGen makes of one cell; less than one where cells may grow. */
     double
     n_pieces(unsigned int cell) const;
 

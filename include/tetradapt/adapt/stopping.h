@@ -25,7 +25,8 @@ namespace tetradapt::adapt
     max_tets,
     max_dofs,
     max_seconds,
-    no_new_tets
+    no_new_tets,
+    no_better_mesh ///< meshes were rejected, and a uniform one would be too large
   };
 
   /** Whether a ratio of errors lets a reference measure a mesh. */
@@ -112,6 +113,11 @@ namespace tetradapt::adapt
   /** The decision once TetGen has returned a mesh of @p new_tets tetrahedra. */
   StopDecision
   decide_new_mesh(unsigned long old_tets, unsigned long new_tets);
+
+  /** Whether each tetrahedron of cycle @p last, from which a mesh was made twice and
+   * rejected, may be cut into eight within the limits. */
+  StopDecision
+  decide_uniform_fallback(const scene::AdaptivityParameters &parameters, const CycleRecord &last);
 } // namespace tetradapt::adapt
 
 #endif

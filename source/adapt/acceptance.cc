@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/adapt/acceptance.h"
+
+#include "tetradapt/core/expression.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tetradapt::adapt
+{
+  namespace
+  {
+    constexpr double rounding      = 1e-10; ///< of Pi, relative
+    constexpr double concentration = 3.;    ///< see compare_energies()
+
+    /** Whether a function is linear on all faces that carry a selection, as their corners
+     * and their centroids tell. */
+    bool
+    is_linear(const core::Expression &function,
+              const mesh::TetMesh    &mesh,
+              const std::string      &selection)
+    {
+      if (function.is_constant())
+        return true;
+      double largest = 0., deviation = 0.;
+      for (const mesh::BoundaryFace &face : mesh.faces)
+        {
+          const auto &names = mesh.patches[face.patch].selections;
+          if (std::find(names.begin(), names.end(), selection) == names.end())
+            continue;
+          mesh::Point<3> middle;
+          double         mean = 0.;
+          for (const unsigned int v : face.vertices)
+            {
+              const double value = function(mesh.points[v]);
+              largest            = std::max(largest, std::abs(value));
+              mean += value / 3.;
+              middle += mesh.points[v] / 3.;
+            }
+          deviation = std::max(deviation, std::abs(function(middle) - mean));
+        }
+      return deviation <= 1e-9 * largest;
+    }
+  } // namespace
+
+  std::string
+  why_energy_cannot_tell(const scene::Scene &scene, const mesh::TetMesh &mesh)
+  {
+    for (const auto &load : scene.loads)
+      if (load.type == scene::LoadType::nodal_force)
+        return "the forces at nodes of Loads/" + load.name + " grow with the mesh";
+    for (const auto &support : scene.supports)
+      for (unsigned int d = 0; d < 3; ++d)
+        if (support.components[d]
+            && !is_linear(core::Expression(support.displacement[d],
+                                           "Supports/" + support.name + "/Displacement"),
+                          mesh,
+                          "Supports/" + support.name))
+          return "the displacements of Supports/" + support.name
+                 + " are not linear, so that each mesh has others";
+    return "";
+  }
+
+  EnergyTest
+  compare_energies(const CycleEnergy &before, const CycleEnergy &after, const double swept)
+  {
+    const double scale = std::max(std::abs(before.potential), std::abs(after.potential));
+    EnergyTest   test;
+    test.change    = after.potential - before.potential;
+    test.allowance = (rounding + concentration * swept) * scale
+                     + 0.5
+                         * (before.algebraic_error * before.algebraic_error
+                            + after.algebraic_error * after.algebraic_error);
+    return test;
+  }
+} // namespace tetradapt::adapt

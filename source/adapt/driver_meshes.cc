@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+// The part of the driver that makes one mesh from another.
+#include "tetradapt/adapt/driver.h"
+#include "tetradapt/compare/transfer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace tetradapt::adapt
+{
+  namespace
+  {
+    using scene::Plan;
+    using Adaptivity = scene::AdaptivityParameters;
+
+    /** The same rule, marking more: for a second attempt. */
+    Adaptivity
+    stronger(Adaptivity parameters)
+    {
+      parameters.coarsening = false;
+      parameters.growth *= 2.;
+      parameters.theta    = 0.5 * (1. + parameters.theta);
+      parameters.fraction = std::min(1., 2. * parameters.fraction);
+      parameters.lambda *= 0.5;
+      return parameters;
+    }
+
+    /** The factor by which the error falls: as the size field foretells, but not less than
+     * the number of tetrahedra leads one to expect. */
+    double
+    predicted_factor(const std::vector<double> &indicators,
+                     const SizeField           &field,
+                     double                     growth,
+                     unsigned int               degree)
+    {
+      double squares = 0.;
+      for (const double indicator : indicators)
+        squares += indicator * indicator;
+      const double by_number = std::min(1., std::pow(growth, -(degree / 3.)));
+      return field.predicted_error > 0.
+               ? std::min(by_number, field.predicted_error / std::sqrt(squares))
+               : by_number;
+    }
+
+    const mesh::EdgeTable *
+    edges_of(const mesh::NodalField &field)
+    {
+      return field.degree() == 2 ? &field.edges() : nullptr;
+    }
+  } // namespace
+
+  void
+  Driver::use(NewMesh made)
+  {
+    current = std::move(made);
+    mesh    = current.mesh;
+  }
+
+  StopDecision
+  Driver::next_mesh(Cycle &cycle)
+  {
+    switch (scene.adaptivity.strategy)
+      {
+      case Adaptivity::Strategy::none:
+        return decide_new_mesh(mesh->n_cells(), mesh->n_cells());
+      case Adaptivity::Strategy::mesh_list:
+        make_initial_mesh(cycle.record.cycle + 1);
+        return {};
+      case Adaptivity::Strategy::uniform:
+        refine_uniformly(cycle);
+        return {};
+      case Adaptivity::Strategy::adaptive:
+        return adapt_mesh(cycle);
+      }
+    return {};
+  }
+
+  void
+  Driver::predict_error(const CycleRecord &record, const double factor)
+  {
+    predicted_error = record.energy_error.value_or(record.estimate.value_or(0.)) * factor;
+  }
+
+  void
+  Driver::refine_uniformly(Cycle &cycle)
+  {
+    {
+      const auto scope = timer.scope("mesh");
+      use(mesh_maker.uniform(*mesh, edges_of(*cycle.solution.displacement)));
+    }
+    predict_error(cycle.record, std::pow(0.5, scene.degree));
+    prepare_start(cycle);
+  }
+
+  SizeField
+  Driver::make_size_field(const Cycle &cycle, const bool more) const
+  {
+    const Adaptivity parameters = more ? stronger(scene.adaptivity) : scene.adaptivity;
+    SizeFieldOptions options
+      = make_size_field_options(parameters, scene.tetgen, scene.degree, mesh->n_cells());
+    if (const auto marker = make_marker(parameters))
+      return marked_size_field(*mesh, marker->mark(cycle.indicators, *mesh), options);
+    options.obtained_over_predicted = obtained_over_predicted;
+    if (!more)
+      options.tolerance = cycle.wanted_indicator_norm;
+    return optimal_size_field(*mesh,
+                              cycle.indicators,
+                              options,
+                              edges_of(*cycle.solution.displacement));
+  }
+
+  void
+  Driver::refine_mesh(Cycle &cycle, const SizeField &field, const bool anew)
+  {
+    const unsigned int           old_tets = mesh->n_cells();
+    const compare::PointLocator &locator  = cycle.comparison->locator();
+    if (anew)
+      {
+        const mesh::EdgeTable *edges = edges_of(*cycle.solution.displacement);
+        use(mesh_maker.made_anew(
+          *mesh, field, locator, edges != nullptr ? *edges : mesh::build_edges(*mesh)));
+      }
+    else
+      use(mesh_maker.refined(*mesh, field, locator));
+    std::ostringstream text;
+    text << (anew ? "Made anew" : "Refined") << " from " << old_tets << " to " << mesh->n_cells()
+         << " tetrahedra (" << std::lround(field.predicted_tets)
+         << " predicted): " << describe_mesh(*mesh);
+    log.info(text.str());
+  }
+
+  StopDecision
+  Driver::adapt_mesh(Cycle &cycle)
+  {
+    SizeField field;
+    {
+      const auto scope = timer.scope("marking");
+      in_cycle(cycle.record.cycle).progress("marking and sizing");
+      field = make_size_field(cycle, false);
+    }
+    const double largest = *std::max_element(cycle.indicators.begin(), cycle.indicators.end());
+    // Below this an error is rounding, and refining would chase noise.
+    const bool is_exact = cycle.record.relative_energy_error.value_or(1.) < 1e-10;
+    if (largest == 0. || is_exact || field.n_refined == 0)
+      return decide_nothing_to_refine(is_exact ? 0. : largest);
+
+    const auto         old_mesh   = mesh;
+    const unsigned int old_tets   = mesh->n_cells();
+    const bool         anew       = plan.needs(Plan::body_remeshing);
+    const bool         can_insist = scene.adaptivity.marking == Adaptivity::Marking::optimal_size;
+    for (unsigned int attempt = 0; attempt < 4; ++attempt)
+      {
+        {
+          const auto scope = timer.scope("mesh");
+          refine_mesh(cycle, field, anew);
+        }
+        if (mesh->n_cells() != old_tets || !can_insist || anew)
+          break;
+        // Sizes that are just not below what TetGen would split change nothing: the
+        // factor, learnt from a few cells, was too large.
+        mesh                    = old_mesh;
+        obtained_over_predicted = 0.5 * field.obtained_over_predicted;
+        const auto scope        = timer.scope("marking");
+        field                   = make_size_field(cycle, false);
+      }
+    obtained_over_predicted = next_obtained_over_predicted(field, mesh->n_cells());
+    predict_error(cycle.record,
+                  predicted_factor(cycle.indicators,
+                                   field,
+                                   static_cast<double>(mesh->n_cells()) / old_tets,
+                                   scene.degree));
+    prepare_start(cycle);
+    return anew ? StopDecision() : decide_new_mesh(old_tets, mesh->n_cells());
+  }
+
+  StopDecision
+  Driver::fall_back()
+  {
+    // Back to the mesh of the last accepted cycle, whose solution is still there.
+    Cycle &cycle     = *accepted;
+    mesh             = cycle.solution.displacement->shared_mesh();
+    cycle.comparison = std::make_unique<estimate::Comparison>(
+      cycle.solution.displacement, *materials, scene.truth, sampling, communicator);
+    ++n_rejected;
+    StopDecision decision;
+    if (n_rejected == 1)
+      {
+        log.info("Back to the " + std::to_string(mesh->n_cells()) + " tetrahedra of cycle "
+                 + std::to_string(cycle.record.cycle) + ", refined more strongly.");
+        const auto      scope    = timer.scope("mesh");
+        const SizeField field    = make_size_field(cycle, true);
+        const double    old_tets = mesh->n_cells();
+        refine_mesh(cycle, field, false);
+        predict_error(
+          cycle.record,
+          predicted_factor(cycle.indicators, field, mesh->n_cells() / old_tets, scene.degree));
+        prepare_start(cycle);
+      }
+    else
+      {
+        decision = decide_uniform_fallback(scene.adaptivity, cycle.record);
+        if (!decision.stop())
+          {
+            log.info("Back to the " + std::to_string(mesh->n_cells()) + " tetrahedra of cycle "
+                     + std::to_string(cycle.record.cycle) + ", each cut into eight.");
+            refine_uniformly(cycle);
+          }
+      }
+    cycle.comparison.reset();
+    return decision;
+  }
+
+  void
+  Driver::prepare_start(Cycle &cycle)
+  {
+    // A small system is factorised, without a first iterate.
+    const auto scope = timer.scope("estimate");
+    start.reset();
+    if (plan.needs(Plan::multigrid_solver))
+      start = std::make_unique<mesh::NodalField>(
+        compare::interpolate(*cycle.solution.displacement, cycle.comparison->locator(), mesh));
+  }
+} // namespace tetradapt::adapt

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/adapt/mesh_maker.h"
+
+#include "tetradapt/adapt/saved_sizes.h"
+#include "tetradapt/core/exceptions.h"
+#include "tetradapt/core/on_first_rank.h"
+#include "tetradapt/mesh/body_complex.h"
+#include "tetradapt/mesh/mesh_broadcast.h"
+#include "tetradapt/mesh/mesh_factory.h"
+#include "tetradapt/mesh/red_refinement.h"
+
+#include <sstream>
+
+namespace tetradapt::adapt
+{
+  MeshMaker::MeshMaker(const scene::Scene &scene, MPI_Comm communicator, const core::Log &log)
+    : scene(scene), communicator(communicator), log(log), tetgen(scene.tetgen)
+  {
+    core::on_first_rank(communicator, [&]() { projection = mesh::make_projection(scene.mesh); });
+  }
+
+  NewMesh
+  MeshMaker::make(const std::function<mesh::TetMesh(NewMesh &)> &how, const bool project)
+  {
+    NewMesh made;
+    made.mesh = mesh::make_on_first_rank(communicator, [&]() {
+      mesh::TetMesh mesh = how(made);
+      if (project && projection != nullptr)
+        {
+          const mesh::MoveReport moves = projection->project(mesh);
+          describe_moves(moves, made.record);
+          made.swept = moves.swept_volume / mesh::total_volume(mesh);
+          if (moves.n_held > 0)
+            log.warning(std::to_string(moves.n_held)
+                        + " points of the boundary could not be moved to where the body's surface "
+                          "is without spoiling a tetrahedron; they are tried again on the next "
+                          "mesh.");
+        }
+      if (first_volume == 0.)
+        first_volume = mesh::total_volume(mesh);
+      describe_mesh(mesh, first_volume, made.record);
+      compare_with_true_volume(mesh);
+      return mesh;
+    });
+    core::broadcast_bytes(&made.swept, sizeof(double), communicator);
+    return made;
+  }
+
+  void
+  MeshMaker::compare_with_true_volume(const mesh::TetMesh &mesh) const
+  {
+    if (projection == nullptr || projection->true_volume() == 0.)
+      return;
+    std::ostringstream text;
+    text << "The mesh's volume differs from that inside the surface by "
+         << 100. * (mesh::total_volume(mesh) / projection->true_volume() - 1.) << " %";
+    log.info(text.str());
+  }
+
+  mesh::TetMesh
+  MeshMaker::initial_mesh(const unsigned int number, NewMesh &made) const
+  {
+    mesh::TetMesh mesh = mesh::make_mesh(scene, number, log);
+    if (scene.mesh.size_field.empty())
+      return mesh;
+    log.progress("TetGen refines to Mesh/Size field");
+    mesh::MoveReport moves;
+    mesh::MeshChange change;
+    mesh::SizeReport report;
+    const SavedSizes sizes(scene.mesh.size_field);
+    if (projection != nullptr)
+      change = [&](mesh::TetMesh &refined) { moves = projection->project(refined); };
+    mesh = mesh_with_saved_sizes(tetgen, mesh, sizes, change, &report);
+    describe_moves(moves, made.record);
+    made.record.requested_tets = sizes.n_cells();
+    std::ostringstream text;
+    text << "The sizes of " << scene.mesh.size_field << ", of " << sizes.n_cells()
+         << " tetrahedra, gave " << mesh.n_cells() << " in " << report.passes << " passes";
+    log.info(text.str());
+    if (report.cap_reached)
+      log.warning("TetGen/Steiner points stopped the refinement to Mesh/Size field: "
+                  + std::to_string(report.oversized_cells)
+                  + " tetrahedra are larger than asked for.");
+    return mesh;
+  }
+
+  NewMesh
+  MeshMaker::initial(const unsigned int number)
+  {
+    return make([&](NewMesh &made) { return initial_mesh(number, made); }, false);
+  }
+
+  mesh::TetMesh
+  MeshMaker::refine(const mesh::TetMesh &old, const SizeField &field) const
+  {
+    log.progress("TetGen refines " + std::to_string(old.n_cells()) + " tetrahedra");
+    mesh::TetgenReport report;
+    mesh::TetMesh      mesh = tetgen.refine(old, field.sizing, &report);
+    mesh::warn_of_unmet_wishes(report, log);
+    return mesh;
+  }
+
+  mesh::TetMesh
+  MeshMaker::mesh_anew(const mesh::TetMesh   &old,
+                       const SizeField       &field,
+                       const mesh::EdgeTable &edges) const
+  {
+    log.progress("TetGen meshes the body anew");
+    try
+      {
+        const mesh::BodyComplex body = mesh::body_complex(old, field.node_sizes, edges);
+        mesh::TetgenReport      report;
+        mesh::TetMesh           mesh = tetgen.mesh(body.plc, body.sizing, &report);
+        mesh::warn_of_unmet_wishes(report, log);
+        mesh.region_names = old.region_names;
+        return mesh;
+      }
+    catch (const std::runtime_error &error)
+      {
+        log.warning("The body could not be meshed anew, so that its tetrahedra are refined only "
+                    "this time. "
+                    + std::string(error.what()));
+      }
+    return refine(old, field);
+  }
+
+  NewMesh
+  MeshMaker::refined(const mesh::TetMesh         &old,
+                     const SizeField             &field,
+                     const compare::PointLocator &locator)
+  {
+    return make(
+      [&](NewMesh &made) {
+        mesh::TetMesh mesh         = refine(old, field);
+        made.record.requested_tets = field.predicted_tets;
+        made.record.unmet_sizes    = count_unmet_sizes(mesh, locator, field.node_sizes);
+        return mesh;
+      },
+      true);
+  }
+
+  NewMesh
+  MeshMaker::made_anew(const mesh::TetMesh         &old,
+                       const SizeField             &field,
+                       const compare::PointLocator &locator,
+                       const mesh::EdgeTable       &edges)
+  {
+    return make(
+      [&](NewMesh &made) {
+        mesh::TetMesh mesh         = mesh_anew(old, field, edges);
+        made.record.requested_tets = field.predicted_tets;
+        made.record.unmet_sizes    = count_unmet_sizes(mesh, locator, field.node_sizes);
+        return mesh;
+      },
+      true);
+  }
+
+  NewMesh
+  MeshMaker::uniform(const mesh::TetMesh &old, const mesh::EdgeTable *edges)
+  {
+    return make(
+      [&](NewMesh &made) {
+        made.record.requested_tets = 8. * old.n_cells();
+        return mesh::red_refine(old, edges);
+      },
+      true);
+  }
+} // namespace tetradapt::adapt

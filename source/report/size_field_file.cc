@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/report/size_field_file.h"
+
+#include "tetradapt/mesh/vtu_writer.h"
+
+namespace tetradapt::report
+{
+  SizeFieldFile::SizeFieldFile(const std::string &directory) : directory(directory)
+  {
+  }
+
+  void
+  SizeFieldFile::cycle_done(const adapt::CycleEvent &event)
+  {
+    if (event.node_sizes == nullptr || event.record.acceptance == adapt::Acceptance::rejected)
+      return;
+    mesh::VtuWriter writer(event.displacement.mesh());
+    writer.add_point_data("size", 1, *event.node_sizes);
+    writer.add_regions();
+    writer.write(directory + "/size_field.vtu");
+  }
+} // namespace tetradapt::report
