@@ -3,7 +3,7 @@
 #include "tetradapt/compare/stress_difference.h"
 #include "tetradapt/estimate/enriched_problem.h"
 #include "tetradapt/estimate/extrapolation.h"
-#include "tetradapt/solve/conjugate_gradients.h"
+#include "tetradapt/mesh/face_table.h"
 
 namespace tetradapt::estimate
 {
@@ -11,63 +11,152 @@ namespace tetradapt::estimate
   {
     using Values = EnrichedSpace::Values;
 
-    /** Blocks a(phi_i, phi_i) of components, row by row, of the functions of degree p at the
-     * nodes. As a preconditioner needs no more, every law is taken for an isotropic one. */
-    Values
-    nodal_diagonal(const mesh::NodalField &u_h, const compare::CellMaterials &materials)
+    /**
+     * Blocks a(phi_i, phi_i) of components of all functions, six numbers each (xx, yy, zz, xy,
+     * xz, yz), for they are symmetric. As a preconditioner
+     * needs no more, every law is taken for an isotropic one: then the block of a
+     * function whose gradient is sum_k w_k g_k, with g_k those of the barycentric
+     * coordinates, is sum_kl (int w_k w_l) B(g_k, g_l) with
+     * B(a,b) = lambda a b^T + mu b a^T + mu a.b I.
+     */
+    class DiagonalBlocks
     {
-      const mesh::TetMesh &mesh = u_h.mesh();
-      Values               blocks(9 * std::size_t(u_h.n_nodes()), 0.);
-      for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
-        {
-          const double mu = materials[cell].shear_modulus, lambda = materials[cell].stiffness[0][1];
-          const auto   g      = mesh::barycentric_gradients(mesh, cell);
-          const double volume = mesh::cell_volume(mesh, cell);
-          // factor times (lambda a b^T + mu b a^T + mu a.b I)
-          const auto add = [&](const unsigned int  node,
-                               const double        factor,
-                               const Tensor<1, 3> &a,
-                               const Tensor<1, 3> &b) {
-            double *block = &blocks[9 * std::size_t(node)];
-            for (unsigned int i = 0; i < 3; ++i)
-              {
-                block[4 * i] += factor * mu * (a * b);
-                for (unsigned int j = 0; j < 3; ++j)
-                  block[3 * i + j] += factor * (lambda * a[i] * b[j] + mu * b[i] * a[j]);
-              }
-          };
-          // Degree 2: grad b_i (2 b_i - 1) = (4 b_i - 1) g_i, grad 4 b_i b_j = 4 (b_i g_j + b_j
-          // g_i); the integrals of b_i^2 and b_i b_j over the volume are 1/10 and 1/20.
-          for (unsigned int i = 0; i < 4; ++i)
-            add(u_h.node(cell, i), (u_h.degree() == 1 ? 1. : 0.6) * volume, g[i], g[i]);
-          if (u_h.degree() == 2)
-            for (unsigned int e = 0; e < 6; ++e)
-              {
-                const auto &[i, j]      = mesh::edge_vertices[e];
-                const unsigned int node = u_h.node(cell, 4 + e);
-                add(node, 1.6 * volume, g[i], g[i]);
-                add(node, 1.6 * volume, g[j], g[j]);
-                add(node, 0.8 * volume, g[i], g[j]);
-                add(node, 0.8 * volume, g[j], g[i]);
-              }
-        }
-      return blocks;
-    }
+    public:
+      DiagonalBlocks(const EnrichedSpace          &space,
+                     const mesh::NodalField       &u_h,
+                     const compare::CellMaterials &materials)
+        : values(2 * space.size(), 0.)
+      {
+        const mesh::TetMesh &mesh = u_h.mesh();
+        for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
+          {
+            const auto   g  = mesh::barycentric_gradients(mesh, cell);
+            const double mu = materials[cell].shear_modulus;
+            set_products(g, materials[cell].stiffness[0][1], mu, mesh::cell_volume(mesh, cell));
+            for (unsigned int i = 0; i < u_h.n_nodes_per_cell(); ++i)
+              add_node(u_h.degree(), i, u_h.node(cell, i));
+            for (unsigned int i = 0; i < space.surplus().n_per_cell(); ++i)
+              add_surplus(u_h.degree(), i, space.n_nodes() + space.surplus().function(cell, i));
+          }
+      }
 
-    /** Inverses of 3x3 blocks in place. A function without any cell has none: zero. */
-    void
-    invert_blocks(Values &blocks)
-    {
-      for (std::size_t first = 0; first < blocks.size(); first += 9)
-        {
-          Tensor<2, 3> block;
-          for (unsigned int i = 0; i < 9; ++i)
-            block[i / 3][i % 3] = blocks[first + i];
-          block = determinant(block) > 0. ? invert(block) : Tensor<2, 3>();
-          for (unsigned int i = 0; i < 9; ++i)
-            blocks[first + i] = block[i / 3][i % 3];
-        }
-    }
+      /** Inverts the blocks in place. A function without any cell has none: zero. */
+      void
+      invert()
+      {
+        for (double *b = values.data(), *end = b + values.size(); b != end; b += 6)
+          {
+            const double xx = b[1] * b[2] - b[5] * b[5], xy = b[4] * b[5] - b[3] * b[2],
+                         xz         = b[3] * b[5] - b[4] * b[1];
+            const double det        = b[0] * xx + b[3] * xy + b[4] * xz;
+            const double f          = det > 0. ? 1. / det : 0.;
+            const double inverse[6] = {xx,
+                                       b[0] * b[2] - b[4] * b[4],
+                                       b[0] * b[1] - b[3] * b[3],
+                                       xy,
+                                       xz,
+                                       b[3] * b[4] - b[0] * b[5]};
+            for (unsigned int i = 0; i < 6; ++i)
+              b[i] = f * inverse[i];
+          }
+      }
+
+      /** result = blocks times x. */
+      void
+      multiply(const Values &x, Values &result) const
+      {
+        const double *b = values.data(), *v = x.data();
+        double       *r = result.data();
+        for (const double *end = v + x.size(); v != end; v += 3, r += 3, b += 6)
+          {
+            r[0] = b[0] * v[0] + b[3] * v[1] + b[4] * v[2];
+            r[1] = b[3] * v[0] + b[1] * v[1] + b[5] * v[2];
+            r[2] = b[4] * v[0] + b[5] * v[1] + b[2] * v[2];
+          }
+      }
+
+    private:
+      /** products[k][l] = volume (B(g_k, g_l) + B(g_l, g_k)) / 2 */
+      void
+      set_products(const std::array<Tensor<1, 3>, 4> &g,
+                   const double                       lambda,
+                   const double                       mu,
+                   const double                       volume)
+      {
+        for (unsigned int k = 0; k < 4; ++k)
+          for (unsigned int l = 0; l <= k; ++l)
+            {
+              double      *p      = products[k][l];
+              const double factor = volume * (lambda + mu), dot = volume * mu * (g[k] * g[l]);
+              for (unsigned int i = 0; i < 3; ++i)
+                p[i] = factor * g[k][i] * g[l][i] + dot;
+              p[3] = 0.5 * factor * (g[k][0] * g[l][1] + g[k][1] * g[l][0]);
+              p[4] = 0.5 * factor * (g[k][0] * g[l][2] + g[k][2] * g[l][0]);
+              p[5] = 0.5 * factor * (g[k][1] * g[l][2] + g[k][2] * g[l][1]);
+            }
+      }
+
+      void
+      add(const std::size_t  function,
+          const double       factor,
+          const unsigned int k,
+          const unsigned int l)
+      {
+        const double *p = k > l ? products[k][l] : products[l][k];
+        for (unsigned int i = 0; i < 6; ++i)
+          values[6 * function + i] += factor * p[i];
+      }
+
+      /** An edge's function 4 b_i b_j: gradient 4 (b_j g_i + b_i g_j). */
+      void
+      add_bubble(const unsigned int edge, const std::size_t function)
+      {
+        const auto &[i, j] = mesh::edge_vertices[edge];
+        add(function, 1.6, i, i);
+        add(function, 1.6, j, j);
+        add(function, 1.6, i, j);
+      }
+
+      void
+      add_node(const unsigned int degree, const unsigned int i, const std::size_t function)
+      {
+        if (i < 4) // b_i, or b_i (2 b_i - 1) with the gradient (4 b_i - 1) g_i
+          add(function, degree == 1 ? 1. : 0.6, i, i);
+        else
+          add_bubble(i - 4, function);
+      }
+
+      /** With int b^alpha = 6 V alpha! / (|alpha| + 3)!. */
+      void
+      add_surplus(const unsigned int degree, const unsigned int i, const std::size_t function)
+      {
+        if (degree == 1)
+          add_bubble(i, function);
+        else if (i < 6) // gradient b_j (2 b_i - b_j) g_i + b_i (b_i - 2 b_j) g_j
+          {
+            constexpr double square
+              = HierarchicalSurplus::odd_scale * HierarchicalSurplus::odd_scale;
+            const auto &[a, b] = mesh::edge_vertices[i];
+            add(function, 2. / 105. * square, a, a);
+            add(function, 2. / 105. * square, b, b);
+            add(function, 1. / 105. * square, a, b);
+          }
+        else // gradient b_j b_k g_i + ...
+          {
+            constexpr double square
+              = HierarchicalSurplus::face_scale * HierarchicalSurplus::face_scale;
+            const auto &v = mesh::face_vertices[i - 6];
+            for (unsigned int k = 0; k < 3; ++k)
+              {
+                add(function, 1. / 210. * square, v[k], v[k]);
+                add(function, 1. / 210. * square, v[k], v[(k + 1) % 3]);
+              }
+          }
+      }
+
+      Values values;
+      double products[4][4][6]; ///< for k >= l
+    };
 
     double
     product(const Values &a, const Values &b)
@@ -86,31 +175,42 @@ namespace tetradapt::estimate
       double missing = 0.;
     };
 
-    RoughCorrection
-    correct(const EnrichedProblem &problem, Values residual, const Values &block_inverses)
+    /**
+     * What conjugate gradients have still to find, from what their steps gained: a geometric
+     * series with the rate of the last gains. The first one, by far the largest, says nothing
+     * of those to come. Needs four.
+     */
+    double
+    missing_energy(const std::vector<double> &gains)
     {
-      constexpr unsigned int most_steps = 8;
-      /** Of what has been found, in squares: 2 % in the norm. */
-      constexpr double small = 0.04;
+      const double *last = &gains.back();
+      const double  change
+        = gains.size() == 4 ? last[0] / last[-2] : (last[0] + last[-1]) / (last[-2] + last[-3]);
+      const double rate = std::min(std::sqrt(change), 0.95);
+      return last[0] * rate / (1. - rate);
+    }
 
-      RoughCorrection            result;
-      Values                     preconditioned(residual.size()), direction, stiff;
-      solve::EnergyErrorEstimate estimate;
-      double                     energy = 0., found = 0.;
+    RoughCorrection
+    correct(const EnrichedProblem &problem, Values residual, const DiagonalBlocks &inverses)
+    {
+      // Four or five steps for moderate Poisson ratios, up to all of them near 0.5.
+      constexpr unsigned int fewest_steps = 4, most_steps = 16;
+      constexpr double       small_gain = 0.03; // of what has been found
+
+      RoughCorrection     result;
+      Values              preconditioned(residual.size()), direction, stiff;
+      std::vector<double> gains;
+      double              energy = 0., found = 0.;
       result.values.assign(residual.size(), 0.);
-      for (unsigned int step = 0; step < most_steps; ++step)
+      while (gains.size() < most_steps)
         {
-          for (std::size_t k = 0, block = 0; k < residual.size(); k += 3, block += 9)
-            for (unsigned int c = 0; c < 3; ++c)
-              preconditioned[k + c] = block_inverses[block + 3 * c] * residual[k]
-                                      + block_inverses[block + 3 * c + 1] * residual[k + 1]
-                                      + block_inverses[block + 3 * c + 2] * residual[k + 2];
+          inverses.multiply(residual, preconditioned);
           problem.clear_supported(preconditioned);
           const double before = energy;
           energy              = product(residual, preconditioned);
           if (!(energy > 0.))
-            break; // the solution is that of the next degree
-          if (step == 0)
+            return result; // the solution is that of the next degree
+          if (gains.empty())
             direction = preconditioned;
           else
             for (std::size_t k = 0; k < direction.size(); ++k)
@@ -123,12 +223,12 @@ namespace tetradapt::estimate
               result.values[k] += alpha * direction[k];
               residual[k] -= alpha * stiff[k];
             }
-          found += alpha * energy;
-          estimate.add(alpha * energy);
-          result.missing = estimate.squared_error().value_or(0.);
-          if (estimate.squared_error() && result.missing <= small * found)
+          gains.push_back(alpha * energy);
+          found += gains.back();
+          if (gains.size() >= fewest_steps && gains.back() <= small_gain * found)
             break;
         }
+      result.missing = missing_energy(gains);
       return result;
     }
   } // namespace
@@ -157,10 +257,8 @@ namespace tetradapt::estimate
                                   input.comparison.mpi_communicator());
     const EnrichedSpace          &space = problem.space();
 
-    Values       blocks  = nodal_diagonal(u_h, compare::CellMaterials(materials, u_h.mesh()));
-    const Values surplus = space.surplus_diagonal();
-    blocks.insert(blocks.end(), surplus.begin(), surplus.end());
-    invert_blocks(blocks);
+    DiagonalBlocks blocks(space, u_h, compare::CellMaterials(materials, u_h.mesh()));
+    blocks.invert();
 
     const Values supported  = problem.supported_solution();
     auto         correction = correct(problem, problem.residual(supported), blocks);
