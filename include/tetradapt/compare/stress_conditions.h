@@ -19,14 +19,15 @@ namespace tetradapt::compare
    * tangents, times 2 mu, so that it is a stress. In each cell's centre, weighted with
    * inner_weight: div sigma + f = 0, times the size of the patch.
    *
-   * Weighting was measured (indices of effectivity, degree 1 and 2, nu = .3 and .49): a
-   * weight of 1 hardly changes the estimate where the stress is singular at the
-   * boundary, which without it is a third too small, and 100 makes it a third too
-   * large; the inner one helps for nu near 1/2.
+   * The weights were measured by indices of effectivity of degree 2. Where the stress is
+   * singular at the boundary, on a cantilever and on an L-shaped solid, a boundary weight of
+   * 0 gives 0.67 on the first, 3 gives 0.97 and 1.08, 10 gives 1.07 and 1.28; smooth solutions
+   * hardly depend on it. The inner weight helps for Poisson ratios near 1/2; 1 makes the
+   * estimate a fifth too large there on coarse meshes.
    */
   struct StressConditions
   {
-    static constexpr double boundary_weight = 10., inner_weight = 0.1;
+    static constexpr double boundary_weight = 3., inner_weight = 0.1;
 
     /** sum over the points x of (sigma(x) - s_x)^T matrix (sigma(x) - s_x), as it enters
      * normal equations. */
