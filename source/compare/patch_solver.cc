@@ -149,7 +149,6 @@ namespace tetradapt::compare
   void
   PatchSolver<degree>::add_face(const Point<3> &center, const StressConditions::Face &face)
   {
-    double products[n][n] = {};
     for (unsigned int q = 0; q < face.n_points; ++q)
       {
         double m[n];
@@ -164,12 +163,41 @@ namespace tetradapt::compare
           for (unsigned int i = 0; i < n; ++i)
             right[n * a + i] += face.right[q][a] * m[i];
       }
+  }
+
+  template <unsigned int degree>
+  void
+  PatchSolver<degree>::add_products(const double (&of_components)[6][6])
+  {
     for (unsigned int a = 0; a < 6; ++a)
       for (unsigned int b = 0; b <= a; ++b)
-        if (face.matrix[a][b] != 0.)
+        if (of_components[a][b] != 0.)
           for (unsigned int i = 0; i < n; ++i)
             for (unsigned int j = 0; j < n; ++j)
-              matrix[n * a + i][n * b + j] += face.matrix[a][b] * products[i][j];
+              matrix[n * a + i][n * b + j] += of_components[a][b] * products[i][j];
+    std::fill(&products[0][0], &products[0][0] + n * n, 0.);
+  }
+
+  template <unsigned int degree>
+  void
+  PatchSolver<degree>::add_faces(const Point<3> &center, const std::vector<unsigned int> &cells)
+  {
+    // Faces in one plane and with the same conditions have the same matrix: what is common
+    // to the components is summed up first.
+    const StressConditions::Face *last = nullptr;
+    std::fill(&products[0][0], &products[0][0] + n * n, 0.);
+    for (const unsigned int cell : cells)
+      for (unsigned int f = conditions->begin[cell]; f < conditions->begin[cell + 1]; ++f)
+        {
+          const StressConditions::Face &face = conditions->faces[f];
+          if (last != nullptr
+              && !std::equal(&face.matrix[0][0], &face.matrix[0][0] + 36, &last->matrix[0][0]))
+            add_products(last->matrix);
+          add_face(center, face);
+          last = &face;
+        }
+    if (last != nullptr)
+      add_products(last->matrix);
   }
 
   template <unsigned int degree>
@@ -211,9 +239,7 @@ namespace tetradapt::compare
           right[n * a + i] = fit.right[a][i];
           std::copy(fit.moments[i], fit.moments[i] + n, &matrix[n * a + i][n * a]);
         }
-    for (const unsigned int cell : cells)
-      for (unsigned int f = conditions->begin[cell]; f < conditions->begin[cell + 1]; ++f)
-        add_face(center, conditions->faces[f]);
+    add_faces(center, cells);
     add_equilibrium();
     if (!factorize(matrix, matrix_scale, 1e-3 * determined))
       return false;

@@ -64,7 +64,12 @@ namespace tetradapt::compare
     bool
     solve_at_boundary(const Point<3> &center, const std::vector<unsigned int> &cells);
     void
+    add_faces(const Point<3> &center, const std::vector<unsigned int> &cells);
+    void
     add_face(const Point<3> &center, const StressConditions::Face &face);
+    /** Adds the products of monomials, times a matrix between components, and clears them. */
+    void
+    add_products(const double (&of_components)[6][6]);
     void
     add_equilibrium();
 
@@ -79,6 +84,7 @@ namespace tetradapt::compare
     double                solution[6][n];
     double                weights[n_lower][n_lower]; ///< of the residual of equilibrium
     double                targets[3][n_lower];       ///< weights times -f length, as a polynomial
+    double                products[n][n];            ///< of monomials, summed over points of faces
     double                matrix[n_all][n_all], matrix_scale[n_all], right[n_all];
   };
 
