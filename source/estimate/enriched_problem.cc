@@ -269,7 +269,7 @@ namespace tetradapt::estimate
     Correction                 result;
     Values                     residual = forces, preconditioned, direction, stiff;
     solve::EnergyErrorEstimate estimate;
-    double                     energy = 0., gained = 0.;
+    double                     energy = 0.;
     result.values.assign(forces.size(), 0.);
     for (; result.n_iterations < most; ++result.n_iterations)
       {
@@ -291,10 +291,9 @@ namespace tetradapt::estimate
             residual[i] -= alpha * stiff[i];
           }
         estimate.add(alpha * energy);
-        gained += alpha * energy;
-        result.norm        = std::sqrt(gained);
+        result.norm        = std::sqrt(estimate.gained());
         const auto squared = estimate.squared_error();
-        if (squared && *squared <= tolerance * tolerance * gained)
+        if (squared && *squared <= tolerance * tolerance * estimate.gained())
           {
             result.error = std::sqrt(*squared);
             ++result.n_iterations;

@@ -111,7 +111,7 @@ namespace tetradapt::estimate
         const core::Expression expression(goal.weight, what + "/Weight");
         Densities              densities;
         densities.constant     = expression.is_constant();
-        densities.largest_part = diagonal / 32.;
+        densities.largest_part = diagonal / 16.;
         densities.evaluate
           = [expression](const Point<3> &x, double *value) { value[0] = expression(x); };
         if (densities.constant)
@@ -143,7 +143,7 @@ namespace tetradapt::estimate
         densities.constant     = std::all_of(expressions.begin(),
                                          expressions.end(),
                                          [](const core::Expression &e) { return e.is_constant(); });
-        densities.largest_part = diagonal / 32.;
+        densities.largest_part = diagonal / 16.;
         densities.evaluate     = [expressions](const Point<3> &x, double *values) {
           for (const core::Expression &expression : expressions)
             *values++ = expression(x);

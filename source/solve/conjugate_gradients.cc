@@ -48,12 +48,14 @@ namespace tetradapt::solve
   namespace
   {
     bool
-    is_done(const IterationLimits       &limits,
-            double                       residual,
-            const std::optional<double> &squared_error)
+    is_done(const IterationLimits &limits, double residual, const EnergyErrorEstimate &estimate)
     {
-      return residual <= limits.residual
-             || (squared_error && *squared_error <= limits.error * limits.error);
+      if (residual <= limits.residual)
+        return true;
+      const auto   squared = estimate.squared_error();
+      const double allowed = std::max(limits.error * limits.error,
+                                      std::pow(limits.relative_error, 2) * estimate.gained());
+      return squared && *squared <= allowed;
     }
 
     unsigned int
@@ -108,7 +110,7 @@ namespace tetradapt::solve
         result.residual = std::sqrt(residual.add_and_dot(-alpha, product, residual));
         ++result.iterations;
         estimate.add(alpha * energy);
-        result.converged = is_done(limits, result.residual, estimate.squared_error());
+        result.converged = is_done(limits, result.residual, estimate);
 
         std::ostringstream text;
         text << "conjugate gradients, iteration " << result.iterations

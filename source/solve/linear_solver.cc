@@ -97,6 +97,7 @@ namespace tetradapt::solve
     IterationLimits limits;
     limits.residual       = (stop.residual > 0. ? stop.residual : parameters.tolerance) * norm;
     limits.error          = stop.algebraic_error;
+    limits.relative_error = stop.relative_error;
     limits.max_iterations = parameters.max_iterations;
     const IterationResult result
       = conjugate_gradients(matrix, *preconditioner, right_hand_side, limits, log, x);

@@ -107,12 +107,13 @@ namespace tetradapt::solve
     solution.n_dofs = space.n_dofs();
     auto &values    = solution.displacement->values;
 
-    Vector     x        = data->vector_of(start == nullptr ? nullptr : &start->values, 1.);
-    const auto result   = data->solver->solve(data->system->right_hand_side,
-                                            {stop.residual, stop.algebraic_error},
-                                            "The loads",
-                                            x);
-    solution.iterations = result.iterations;
+    Vector     x = data->vector_of(start == nullptr ? nullptr : &start->values, 1.);
+    const auto result
+      = data->solver->solve(data->system->right_hand_side,
+                            {stop.residual, stop.algebraic_error, stop.relative_error},
+                            "The loads",
+                            x);
+    solution.iterations              = result.iterations;
     solution.iterations_to_tolerance = result.iterations_to_residual;
     solution.algebraic_error         = result.algebraic_error;
     solution.solver                  = result.description;
@@ -134,7 +135,10 @@ namespace tetradapt::solve
     auto         field = std::make_shared<mesh::NodalField>(data->mesh, data->degree, data->edges);
     Vector       x     = data->vector_of(nullptr, 0.);
     const Vector b     = data->vector_of(&forces, 0.);
-    data->solver->solve(b, {stop.residual, stop.algebraic_error}, "The weights of the goal", x);
+    data->solver->solve(b,
+                        {stop.residual, stop.algebraic_error, stop.relative_error},
+                        "The weights of the goal",
+                        x);
     data->space->gather(x, field->values);
     return field;
   }

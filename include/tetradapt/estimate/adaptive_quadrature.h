@@ -20,14 +20,15 @@ namespace tetradapt::estimate
     unsigned int                                    n = 1; ///< at most most
     std::function<void(const Point<3> &, double *)> evaluate;
     bool                                            constant = false;
-    double largest_part = 0.; ///< longest edge of a part, where they are not constant
+    double largest_part = 0.; ///< longest edge of a part in which they do not vary
   };
 
   /**
    * Integrates functions over cells or faces of a mesh, whatever the mesh does not know of
-   * them: a weight that is zero but in a small patch, or jumps. Parts longer than the
-   * densities' largest_part are always cut (into 8, or 4), others where rules of two
-   * degrees do not agree to a tolerance.
+   * them: a weight that is zero but in a small patch, or jumps. Parts are cut (into
+   * 8, or 4) where rules of two degrees do not agree to a tolerance, and also where the
+   * densities are the same at all points, as long as they are longer than the
+   * densities' largest_part: a patch or a hole may lie between the points.
    *
    * @tparam n_corners 4 for cells, 3 for faces.
    */
@@ -43,8 +44,8 @@ namespace tetradapt::estimate
     AdaptiveQuadrature(const mesh::TetMesh &mesh, const Densities &densities);
 
     /** Adds the integrals of the sizes |density| over a cell or face, with the points
-     * of the coarsest rule, to @p sums. */
-    void
+     * of the coarsest rule, to @p sums. @return whether there is anything. */
+    bool
     add_sizes(unsigned int cell, const Corners &corners, double measure, double *sums) const;
 
     /** Visits the points of a rule that is accurate to @p tolerances, one a density. */
@@ -65,6 +66,21 @@ namespace tetradapt::estimate
 
     static Rule
     make_rule(unsigned int order);
+    /** Whether all values are @p first. */
+    bool
+    is_flat(const std::vector<Values> &all, const Values &first) const;
+    /** Whether no density jumps among the values at hand, to zero or between two values,
+     * by more than is allowed: where a jump cuts a part in halves, rules of any degree
+     * agree, and are wrong. */
+    bool
+    is_smooth(double measure, const double *tolerances) const;
+    /** Whether the integrals @p sum of the values at hand can be trusted. */
+    bool
+    is_accurate(unsigned int   cell,
+                const Corners &corners,
+                double         measure,
+                const Values  &sum,
+                const double  *tolerances) const;
     bool
     is_large(unsigned int cell, const Corners &corners) const;
     /** Densities at the points of a rule, and their integrals. */
@@ -89,7 +105,7 @@ namespace tetradapt::estimate
 
     const mesh::TetMesh &mesh;
     const Densities     &densities;
-    Rule                 low, middle, high;
+    Rule                 low, middle, high, rim;
     /** Work space: densities at the points of the part at hand. */
     mutable std::vector<Values> values, others;
   };

@@ -27,9 +27,9 @@ namespace tetradapt::estimate
    * Puts a goal on the mesh of @p field. Collective.
    *
    * Stresses are C : (strain - thermal strain) inside the cells. Weights and the kernel
-   * of a point stress are integrated adaptively, to 1e-6 of their integral in every part,
-   * on parts no longer than 1/32 of the body's diagonal, or half the ball's radius: a
-   * patch smaller than that may be missed on a coarse mesh. Means are over the part of a
+   * of a point stress are integrated adaptively, to 1e-6 of their integral in every part.
+   * A patch much smaller than 1/16 of the body's diagonal may be missed on a coarse
+   * mesh. Means are over the part of a
    * ball that lies in the body, and are divided by the weight's integral with the same
    * points, so that the mean of a constant is exact.
    *

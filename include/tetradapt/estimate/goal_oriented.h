@@ -6,9 +6,22 @@
 
 namespace tetradapt::estimate
 {
-  /** Dual weighted residual (Becker and Rannacher, Acta Numerica 10, 2001) for one
-   * goal of the scene: global is the estimated error of the goal with its sign, in
-   * its unit, and the indicators are roots of what the cells contribute to it. */
+  /**
+   * Dual weighted residual (Becker and Rannacher, Acta Numerica 10, 2001) for one goal
+   * of the scene: Estimation/Goal, or its first one.
+   *
+   * With the dual solution z, a(v, z) = J(v), the error of the goal is J(u) - J(u_h) =
+   * r(z) with the residual r of u_h, and with both corrections e_u, e_z to the next
+   * degree (EnrichedProblem) it is r(z_h) + a(e_u, e_z): the first is what the solver
+   * left, the second what the mesh lacks. Both corrections are known to about a tenth
+   * only; a(e_u, e_z) = r(e_z) + r_z(e_u) - a(e_u, e_z) is then known to a hundredth of
+   * the product of their norms.
+   *
+   * global is that error, with its sign and in the goal's unit: value + global is the better
+   * value. The cells' contributions, whose signs would cancel, are bounded by the
+   * products |||e_u|||_K |||e_z|||_K, and the indicators are the roots of these, which
+   * fall like h^p.
+   */
   class GoalOriented : public Estimator
   {
   public:

@@ -29,12 +29,21 @@ namespace tetradapt::solve
     add(double gain)
     {
       gains.push_back(gain);
+      total += gain;
     }
 
     /** Square of the energy norm of the present error; empty while too few steps were
      * made, or if the gains do not fall yet. */
     std::optional<double>
     squared_error() const;
+
+    /** Sum of all gains: the square of the energy norm of what was added to the first
+     * iterate. */
+    double
+    gained() const
+    {
+      return total;
+    }
 
     /** Factor by which a step reduces the square of the error: the slower of the mean
      * over all steps and that of the last few, at least 0.2; empty where there is no estimate. */
@@ -49,13 +58,15 @@ namespace tetradapt::solve
     sum(std::size_t begin) const;
 
     std::vector<double> gains;
+    double              total = 0.;
   };
 
   /** When conjugate gradients end: when the residual or the error is reached. */
   struct IterationLimits
   {
     double       residual       = 0.; ///< l2 norm
-    double       error          = 0.; ///< energy norm, estimated; 0: only the residual counts
+    double       error          = 0.; ///< energy norm, estimated; 0: does not count
+    double       relative_error = 0.; ///< relative to all gains, the norm of x from zero on
     unsigned int max_iterations = 0;
   };
 

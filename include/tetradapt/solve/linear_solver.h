@@ -23,7 +23,8 @@ namespace tetradapt::solve
   struct LinearStop
   {
     double residual        = 0.; ///< relative to the load; 0: the parameters' tolerance
-    double algebraic_error = 0.; ///< energy norm of the error; 0: the residual decides
+    double algebraic_error = 0.; ///< energy norm of the error; 0: does not count
+    double relative_error  = 0.; ///< the same, relative to what has been gained; 0: does not
   };
 
   struct LinearResult
@@ -52,8 +53,8 @@ namespace tetradapt::solve
     /**
      * Solves for @p x from @p x on, which has the prescribed values. Conjugate
      * gradients end when the residual is below the tolerance times the norm of the
-     * load, which is the right-hand side at free unknowns; or, where an algebraic error
-     * is given, when that is reached (no residual tells when: that of a slender body's
+     * load, which is the right-hand side at free unknowns; or, where an error is given,
+     * when that is reached (no residual tells when: that of a slender body's
      * bending is larger than the load for errors of a percent). Collective.
      * @param load is what to call the right-hand side in messages: "The loads".
      * @throws core::NumericalError if it does not converge.

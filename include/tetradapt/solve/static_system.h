@@ -31,8 +31,11 @@ namespace tetradapt::solve
       /** Residual relative to the load; the scene's Solver/Tolerance where 0. */
       double residual = 0.;
       /** Energy norm that the iterate's own error may have, estimated while
-       * iterating; 0: the residual alone decides. */
+       * iterating; 0: does not count. */
       double algebraic_error = 0.;
+      /** The same relative to the energy norm of what is solved for, where nothing is
+       * known of that; counts for first iterates of zero only. */
+      double relative_error = 0.;
     };
 
     /** Numbers, assembles, and prepares the solver. Keeps references to @p scene

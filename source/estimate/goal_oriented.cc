@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/estimate/goal_oriented.h"
+
+#include "tetradapt/core/exceptions.h"
+#include "tetradapt/estimate/enriched_problem.h"
+#include "tetradapt/estimate/goal_functional.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tetradapt::estimate
+{
+  namespace
+  {
+    using Values = EnrichedSpace::Values;
+
+    constexpr double dual_accuracy       = 1e-4; ///< of the dual solution, energy norm
+    constexpr double correction_accuracy = 0.1;  ///< of both corrections, energy norm
+
+    const scene::GoalParameters &
+    chosen_goal(const scene::Scene &scene)
+    {
+      for (const auto &goal : scene.goals)
+        if (scene.estimation.goal.empty() || goal.name == scene.estimation.goal)
+          return goal;
+      throw core::InputError("Estimation/Goal: there is no goal '" + scene.estimation.goal
+                             + "'. Add a subsection to Goals, or name one that is there.");
+    }
+
+    /** Sum of the products of entries from @p begin to @p end. */
+    double
+    product(const Values &a, const Values &b, std::size_t begin, std::size_t end)
+    {
+      double sum = 0.;
+      for (std::size_t i = begin; i < end; ++i)
+        sum += a[i] * b[i];
+      return sum;
+    }
+
+    std::vector<Tensor<1, 3>>
+    nodal_part(const Values &values, unsigned int n_nodes)
+    {
+      std::vector<Tensor<1, 3>> result(n_nodes);
+      for (std::size_t i = 0; i < n_nodes; ++i)
+        result[i] = Tensor<1, 3>({values[3 * i], values[3 * i + 1], values[3 * i + 2]});
+      return result;
+    }
+  } // namespace
+
+  EstimatorTraits
+  GoalOriented::traits() const
+  {
+    EstimatorTraits traits;
+    traits.name           = "goal";
+    traits.documentation  = "Error of a goal by the dual weighted residual: dual solution on the "
+                            "same mesh, both solutions corrected to the next degree.";
+    traits.needs_system   = true;
+    traits.is_energy_norm = false;
+    return traits;
+  }
+
+  Estimate
+  GoalOriented::estimate(const EstimateInput &input) const
+  {
+    const EnrichedProblem problem(input.scene,
+                                  input.comparison.material_map(),
+                                  input.solution,
+                                  input.comparison.mpi_communicator());
+    const EnrichedSpace  &space = problem.space();
+    const std::size_t     nodal = 3 * static_cast<std::size_t>(space.n_nodes()), all = space.size();
+
+    const Values goal = put_on_mesh(chosen_goal(input.scene),
+                                    *input.solution.displacement,
+                                    input.comparison,
+                                    &space.surplus())
+                          .forces;
+    solve::StaticSystem::Stop stop;
+    stop.relative_error = dual_accuracy;
+    const auto   z   = input.solution.system->solve_dual(nodal_part(goal, space.n_nodes()), stop);
+    const Values z_h = space.embed(z->values);
+    Values       dual_residual;
+    space.multiply(z_h, dual_residual);
+    for (std::size_t i = 0; i < all; ++i)
+      dual_residual[i] = goal[i] - dual_residual[i];
+    problem.clear_supported(dual_residual);
+
+    const Values supported = problem.supported_solution();
+    const Values residual  = problem.residual(supported);
+    Values       e_u       = problem.solve(residual, correction_accuracy).values;
+    const Values e_z       = problem.solve(dual_residual, correction_accuracy).values;
+
+    Estimate     result;
+    const auto   products = space.cell_products(e_u, e_z);
+    const double gained   = product(residual, e_z, 0, all) + product(dual_residual, e_u, 0, all);
+    result.global         = product(goal, supported, nodal, all) // prescribed beyond degree p
+                    + product(residual, z_h, 0, nodal) + gained;
+    for (const double cell_product : products)
+      result.global -= cell_product;
+
+    for (std::size_t i = nodal; i < all; ++i)
+      e_u[i] += supported[i];
+    const auto primal = space.cell_products(e_u, e_u), dual = space.cell_products(e_z, e_z);
+    result.indicators.resize(primal.size());
+    for (std::size_t cell = 0; cell < primal.size(); ++cell)
+      result.indicators[cell] = std::pow(std::max(primal[cell] * dual[cell], 0.), 0.25);
+    return result;
+  }
+} // namespace tetradapt::estimate
