@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace tetradapt::estimate
 {
@@ -16,6 +17,7 @@ namespace tetradapt::estimate
 
     constexpr double dual_accuracy       = 1e-4; ///< of the dual solution, energy norm
     constexpr double correction_accuracy = 0.1;  ///< of both corrections, energy norm
+    constexpr double least_cosine        = 0.05; ///< of the corrections' angle in a cell
 
     const scene::GoalParameters &
     chosen_goal(const scene::Scene &scene)
@@ -43,6 +45,26 @@ namespace tetradapt::estimate
       std::vector<Tensor<1, 3>> result(n_nodes);
       for (std::size_t i = 0; i < n_nodes; ++i)
         result[i] = Tensor<1, 3>({values[3 * i], values[3 * i + 1], values[3 * i + 2]});
+      return result;
+    }
+    double
+    sum(const std::vector<double> &values)
+    {
+      return std::accumulate(values.begin(), values.end(), 0.);
+    }
+
+    /** See the class. */
+    std::vector<double>
+    indicators(const EnrichedSpace &space, const Values &e_u, const Values &e_z)
+    {
+      std::vector<double> result = space.cell_products(e_u, e_z);
+      const auto          primal = space.cell_products(e_u, e_u);
+      const auto          dual   = space.cell_products(e_z, e_z);
+      for (std::size_t cell = 0; cell < result.size(); ++cell)
+        {
+          const double bound = std::sqrt(std::max(primal[cell] * dual[cell], 0.));
+          result[cell]       = std::sqrt(std::max(std::abs(result[cell]), least_cosine * bound));
+        }
       return result;
     }
   } // namespace
@@ -90,19 +112,14 @@ namespace tetradapt::estimate
     const Values e_z       = problem.solve(dual_residual, correction_accuracy).values;
 
     Estimate     result;
-    const auto   products = space.cell_products(e_u, e_z);
-    const double gained   = product(residual, e_z, 0, all) + product(dual_residual, e_u, 0, all);
+    const double products = sum(space.cell_products(e_u, e_z));
     result.global         = product(goal, supported, nodal, all) // prescribed beyond degree p
-                    + product(residual, z_h, 0, nodal) + gained;
-    for (const double cell_product : products)
-      result.global -= cell_product;
+                    + product(residual, z_h, 0, nodal) + product(residual, e_z, 0, all)
+                    + product(dual_residual, e_u, 0, all) - products;
 
     for (std::size_t i = nodal; i < all; ++i)
       e_u[i] += supported[i];
-    const auto primal = space.cell_products(e_u, e_u), dual = space.cell_products(e_z, e_z);
-    result.indicators.resize(primal.size());
-    for (std::size_t cell = 0; cell < primal.size(); ++cell)
-      result.indicators[cell] = std::pow(std::max(primal[cell] * dual[cell], 0.), 0.25);
+    result.indicators = indicators(space, e_u, e_z);
     return result;
   }
 } // namespace tetradapt::estimate

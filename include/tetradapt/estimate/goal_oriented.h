@@ -18,9 +18,9 @@ namespace tetradapt::estimate
    * the product of their norms.
    *
    * global is that error, with its sign and in the goal's unit: value + global is the better
-   * value. The cells' contributions, whose signs would cancel, are bounded by the
-   * products |||e_u|||_K |||e_z|||_K, and the indicators are the roots of these, which
-   * fall like h^p.
+   * value. Cell K contributes a_K(e_u, e_z); where both happen to be orthogonal there, at
+   * least a twentieth of |||e_u|||_K |||e_z|||_K is counted. The indicators are the
+   * roots of these sizes, which fall like h^p.
    */
   class GoalOriented : public Estimator
   {
