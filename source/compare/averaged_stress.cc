@@ -24,7 +24,8 @@ namespace tetradapt::compare
     /** The least-squares problem of one node. */
     struct NodeProblem
     {
-      double matrix[6][6] = {}, right[6] = {};
+      const ElasticMatrices *elastic;
+      double                 matrix[6][6] = {}, right[6] = {};
     };
   } // namespace
 
@@ -116,7 +117,7 @@ namespace tetradapt::compare
               if (number[slot] == dealii::numbers::invalid_unsigned_int)
                 {
                   number[slot] = problems.size();
-                  problems.emplace_back();
+                  problems.push_back({&stress.materials()[cell], {}, {}});
                   problem_slots.push_back(slot);
                 }
               NodeProblem &problem = problems[number[slot]];
@@ -134,11 +135,15 @@ namespace tetradapt::compare
       {
         NodeProblem &problem = problems[k];
         double      *mean    = &means[6 * std::size_t(problem_slots[k])], scale[6];
+        // As in PatchSolver, distances are energies.
         for (unsigned int a = 0; a < 6; ++a)
-          {
-            problem.matrix[a][a] += 1.;
-            problem.right[a] += mean[a];
-          }
+          for (unsigned int b = 0; b < 6; ++b)
+            {
+              const double metric
+                = 2. * problem.elastic->shear_modulus * problem.elastic->compliance[a][b];
+              problem.matrix[a][b] += metric;
+              problem.right[a] += metric * mean[b];
+            }
         if (!factorize(problem.matrix, scale, 1e-12))
           continue;
         solve_factorized(problem.matrix, scale, problem.right);

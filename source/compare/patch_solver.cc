@@ -30,8 +30,9 @@ namespace tetradapt::compare
   PatchSolver<degree>::PatchSolver(const mesh::TetMesh             &mesh,
                                    const std::vector<StressSample> &samples,
                                    const unsigned int               n_a_cell,
+                                   const CellMaterials             &materials,
                                    const StressConditions          *conditions)
-    : mesh(mesh), samples(samples), n_a_cell(n_a_cell), conditions(conditions)
+    : mesh(mesh), samples(samples), n_a_cell(n_a_cell), materials(materials), conditions(conditions)
   {
   }
 
@@ -55,6 +56,19 @@ namespace tetradapt::compare
                   scale * (s.point[1] - center[1]),
                   scale * (s.point[2] - center[2]),
                   s.stress);
+        }
+  }
+
+  template <unsigned int degree>
+  void
+  PatchSolver<degree>::set_metric(const ElasticMatrices &elastic)
+  {
+    const double modulus = 2. * elastic.shear_modulus;
+    for (unsigned int a = 0; a < 6; ++a)
+      for (unsigned int b = 0; b < 6; ++b)
+        {
+          metric[a][b]         = modulus * elastic.compliance[a][b];
+          inverse_metric[a][b] = elastic.stiffness[a][b] / modulus;
         }
   }
 
@@ -103,7 +117,7 @@ namespace tetradapt::compare
       solve_factorized(weights, inverse_scale, target);
 
     // Columns A^-1 D_j^T, D_j the derivative with respect to x_j; and D_l A^-1 D_j^T.
-    double columns[3][n_lower][n], products[3][3][n_lower][n_lower] = {};
+    double columns[3][n_lower][n], slopes[3][3][n_lower][n_lower] = {};
     for (unsigned int j = 0; j < 3; ++j)
       {
         std::fill(&columns[j][0][0], &columns[j][0][0] + n_lower * n, 0.);
@@ -114,7 +128,7 @@ namespace tetradapt::compare
         for (unsigned int l = 0; l < 3; ++l)
           for (unsigned int k = 0; k < n_derivatives[degree]; ++k)
             for (unsigned int r = 0; r < n_lower; ++r)
-              products[l][j][derivatives[l][k].to][r]
+              slopes[l][j][derivatives[l][k].to][r]
                 += derivatives[l][k].factor * columns[j][r][derivatives[l][k].of];
       }
     // Equation i is the sum over j of the derivatives of component (i,j) by x_j.
@@ -124,10 +138,14 @@ namespace tetradapt::compare
         {
           for (unsigned int k = 0; k < 3; ++k)
             for (unsigned int s = 0; s < n_lower; ++s)
-              schur[n_lower * i + r][n_lower * k + s]
-                = i == k ? products[0][0][r][s] + products[1][1][r][s] + products[2][2][r][s]
-                             + inverse[r][s]
-                         : products[k][i][r][s];
+              {
+                double sum = i == k ? inverse[r][s] : 0.;
+                for (unsigned int j = 0; j < 3; ++j)
+                  for (unsigned int l = 0; l < 3; ++l)
+                    sum += inverse_metric[stress_index[i][j]][stress_index[k][l]]
+                           * slopes[j][l][r][s];
+                schur[n_lower * i + r][n_lower * k + s] = sum;
+              }
           multipliers[n_lower * i + r] = -targets[i][r];
         }
     for (unsigned int i = 0; i < 3; ++i)
@@ -138,11 +156,17 @@ namespace tetradapt::compare
     if (!factorize(schur, schur_scale, 1e-14))
       return;
     solve_factorized(schur, schur_scale, multipliers);
+    double change[6][n] = {};
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int j = 0; j < 3; ++j)
         for (unsigned int r = 0; r < n_lower; ++r)
           for (unsigned int m = 0; m < n; ++m)
-            solution[stress_index[i][j]][m] -= multipliers[n_lower * i + r] * columns[j][r][m];
+            change[stress_index[i][j]][m] += multipliers[n_lower * i + r] * columns[j][r][m];
+    for (unsigned int a = 0; a < 6; ++a)
+      for (unsigned int b = 0; b < 6; ++b)
+        if (inverse_metric[a][b] != 0.)
+          for (unsigned int m = 0; m < n; ++m)
+            solution[a][m] -= inverse_metric[a][b] * change[b][m];
   }
 
   template <unsigned int degree>
@@ -233,12 +257,17 @@ namespace tetradapt::compare
                                          const std::vector<unsigned int> &cells)
   {
     std::fill(&matrix[0][0], &matrix[0][0] + n_all * n_all, 0.);
+    std::fill(right, right + n_all, 0.);
     for (unsigned int a = 0; a < 6; ++a)
-      for (unsigned int i = 0; i < n; ++i)
-        {
-          right[n * a + i] = fit.right[a][i];
-          std::copy(fit.moments[i], fit.moments[i] + n, &matrix[n * a + i][n * a]);
-        }
+      for (unsigned int b = 0; b < 6; ++b)
+        if (metric[a][b] != 0.)
+          for (unsigned int i = 0; i < n; ++i)
+            {
+              right[n * a + i] += metric[a][b] * fit.right[b][i];
+              if (b <= a)
+                for (unsigned int j = 0; j < n; ++j)
+                  matrix[n * a + i][n * b + j] = metric[a][b] * fit.moments[i][j];
+            }
     add_faces(center, cells);
     add_equilibrium();
     if (!factorize(matrix, matrix_scale, 1e-3 * determined))
@@ -266,6 +295,7 @@ namespace tetradapt::compare
     bool done = false;
     if (degree > 0 && conditions != nullptr)
       {
+        set_metric(materials[cells[0]]);
         collect_equilibrium(center, cells);
         done = conditions->on_boundary[vertex] != 0 && solve_at_boundary(center, cells);
       }

@@ -34,9 +34,10 @@ namespace tetradapt::compare
                 const RecoveryPatches           &patches,
                 const std::vector<StressSample> &samples,
                 const unsigned int               n_a_cell,
+                const CellMaterials             &materials,
                 const StressConditions          *conditions)
-        : patches(patches), solver(mesh, samples, n_a_cell, conditions),
-          lower(mesh, patches, samples, n_a_cell, conditions)
+        : patches(patches), solver(mesh, samples, n_a_cell, materials, conditions),
+          lower(mesh, patches, samples, n_a_cell, materials, conditions)
       {
       }
 
@@ -69,8 +70,9 @@ namespace tetradapt::compare
                 const RecoveryPatches           &patches,
                 const std::vector<StressSample> &samples,
                 const unsigned int               n_a_cell,
+                const CellMaterials             &materials,
                 const StressConditions          *conditions)
-        : patches(patches), solver(mesh, samples, n_a_cell, conditions)
+        : patches(patches), solver(mesh, samples, n_a_cell, materials, conditions)
       {
       }
 
@@ -98,7 +100,7 @@ namespace tetradapt::compare
       const TetQuadrature   &rule      = tet_quadrature(degree);
       const auto             samples   = sample_stresses(mesh, stress, rule);
       const auto             fits      = std::make_unique<PatchFits<degree>>(
-        mesh, patches, samples, rule.points.size(), conditions);
+        mesh, patches, samples, rule.points.size(), stress.materials(), conditions);
       const Slice               slice = own_slice(patches.size(), communicator);
       std::vector<double>       result(std::size_t(patches.size()) * n_numbers, 0.);
       std::vector<unsigned int> cells;

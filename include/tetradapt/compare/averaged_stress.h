@@ -16,8 +16,8 @@ namespace tetradapt::compare
    * mean for each.
    *
    * On the boundary the mean is corrected to fit what loads and supports say of the
-   * faces around the node: the nearest stress to it in least squares, with the squares
-   * of StressConditions added.
+   * faces around the node: the nearest stress to it in the energy norm, with the
+   * squares of StressConditions added.
    */
   class AveragedStress
   {

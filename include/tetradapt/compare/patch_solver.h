@@ -19,10 +19,16 @@ namespace tetradapt::compare
    * patch, in the coordinates (x - center) / length, and to the conditions that a stress
    * satisfies.
    *
-   * The six components of a fit to samples alone share one matrix A. Inside, the
-   * equations of equilibrium G c = g, added with a matrix of weights W, couple them:
-   * c = c_0 - A^-1 G^T (G A^-1 G^T + W^-1)^-1 (G c_0 - g), a small system. At the boundary
-   * all coefficients are solved for together.
+   * Distances to the samples are measured in the metric 2 mu C^-1 of the energy norm: a
+   * condition is then met by the cheapest change of the stress, for nearly
+   * incompressible materials by one of the pressure, whose samples are the least reliable.
+   * (Measured: with the plain sum of squares the conditions make the estimate up to 40 % too
+   * large for nu = .49, with this metric it is better than without them.)
+   *
+   * A fit to samples alone is the same in any metric, and the six components share one
+   * matrix A. Inside, the equations of equilibrium G c = g, added with a matrix of
+   * weights W, couple them: with B = A^-1 (x) C / (2 mu), c = c_0 - B G^T (G B G^T + W^-1)^-1
+   * (G c_0 - g), a small system. At the boundary all coefficients are solved for together.
    */
   template <unsigned int degree>
   class PatchSolver
@@ -34,6 +40,7 @@ namespace tetradapt::compare
     PatchSolver(const mesh::TetMesh             &mesh,
                 const std::vector<StressSample> &samples,
                 unsigned int                     n_a_cell,
+                const CellMaterials             &materials,
                 const StressConditions          *conditions);
 
     /**
@@ -60,6 +67,8 @@ namespace tetradapt::compare
     void
     collect_equilibrium(const Point<3> &center, const std::vector<unsigned int> &cells);
     void
+    set_metric(const ElasticMatrices &elastic);
+    void
     solve_inside();
     bool
     solve_at_boundary(const Point<3> &center, const std::vector<unsigned int> &cells);
@@ -76,9 +85,11 @@ namespace tetradapt::compare
     const mesh::TetMesh             &mesh;
     const std::vector<StressSample> &samples;
     unsigned int                     n_a_cell;
+    const CellMaterials             &materials;
     const StressConditions          *conditions;
 
-    double                length = 1., scale = 1.; ///< scale: 1 / length
+    double                metric[6][6], inverse_metric[6][6]; ///< between components
+    double                length = 1., scale = 1.;            ///< scale: 1 / length
     PolynomialFit<degree> fit;
     double                factor[n][n], factor_scale[n];
     double                solution[6][n];

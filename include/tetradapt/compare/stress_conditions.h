@@ -21,13 +21,13 @@ namespace tetradapt::compare
    *
    * The weights were measured by indices of effectivity of degree 2. Where the stress is
    * singular at the boundary, on a cantilever and on an L-shaped solid, a boundary weight of
-   * 0 gives 0.67 on the first, 3 gives 0.97 and 1.08, 10 gives 1.07 and 1.28; smooth solutions
-   * hardly depend on it. The inner weight helps for Poisson ratios near 1/2; 1 makes the
-   * estimate a fifth too large there on coarse meshes.
+   * 0 gives 0.67 on the first, 3 gives 0.95 and 1.12, 10 gives 1.07 and 1.29; smooth solutions
+   * hardly depend on it. The inner weight, of little effect from 0.1 to 1, makes the
+   * distribution better for Poisson ratios near 1/2.
    */
   struct StressConditions
   {
-    static constexpr double boundary_weight = 3., inner_weight = 0.1;
+    static constexpr double boundary_weight = 3., inner_weight = 0.3;
 
     /** sum over the points x of (sigma(x) - s_x)^T matrix (sigma(x) - s_x), as it enters
      * normal equations. */
