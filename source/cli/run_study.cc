@@ -170,7 +170,7 @@ namespace tetradapt::cli
                                           std::to_string(last->dofs),
                                           cell(last->relative_energy_error),
                                           cell(last->mean_ren),
-                                          cell(last->effectivity),
+                                          cell(report::main_effectivity(*last)),
                                           report::format_fixed(seconds, 2)})
             rows.back().push_back(text);
         rows.back().push_back(outcomes[i].is_failed ? "failed"

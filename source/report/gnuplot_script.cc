@@ -78,15 +78,21 @@ namespace tetradapt::report
       return "set " + axis + "range [" + number(range.lower) + ":" + number(range.upper) + "]\n";
     }
 
-    /** What all pictures have in common. */
+    /** What all pictures have in common; @p n_names are explained beside them. */
     std::string
-    begin_script(const std::string &title, const std::string &x_label, const std::string &y_label)
+    begin_script(const std::string &title,
+                 const std::string &x_label,
+                 const std::string &y_label,
+                 const std::size_t  n_names)
     {
+      // Each name takes 23 points.
+      const std::size_t height = std::max<std::size_t>(540, 100 + 23 * n_names);
       return "# gnuplot -d this.gp > this.svg\n"
-             "set terminal svg size 900,540 font 'Arial,15' background '#ffffff' enhanced "
-             "rounded\n"
-             "set encoding utf8\n"
-             "set title "
+             "set terminal svg size 900,"
+             + std::to_string(height)
+             + " font 'Arial,15' background '#ffffff' enhanced rounded\n"
+               "set encoding utf8\n"
+               "set title "
              + gnuplot_text(title)
              + " noenhanced\n"
                "set border 3 lc rgb '#606060'\n"
@@ -212,7 +218,7 @@ namespace tetradapt::report
     widen(x, plot.logarithmic_x, 0.04);
     widen(y, plot.logarithmic_y, 0.05);
 
-    std::string script      = begin_script(plot.title, plot.x_label, plot.y_label);
+    std::string script      = begin_script(plot.title, plot.x_label, plot.y_label, curves.size());
     const bool  with_slopes = plot.logarithmic_x && plot.logarithmic_y && !plot.slopes.empty();
     if (with_slopes)
       script += slope_triangles(plot.slopes, x, y);
@@ -250,7 +256,7 @@ namespace tetradapt::report
     if (plot.series.empty() || plot.classes.empty())
       return "";
     std::string script
-      = begin_script(plot.title, plot.x_label, plot.y_label)
+      = begin_script(plot.title, plot.x_label, plot.y_label, plot.series.size())
         + "set style data histograms\nset style histogram clustered gap 1\n"
           "set style fill solid 0.9 noborder\nset yrange [0:*]\nset xtics scale 0\n"
           "$bars << EOD\n";

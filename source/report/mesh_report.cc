@@ -4,7 +4,6 @@
 #include "tetradapt/core/atomic_file.h"
 #include "tetradapt/report/record_columns.h"
 
-#include <cmath>
 
 namespace tetradapt::report
 {
@@ -37,10 +36,10 @@ namespace tetradapt::report
       std::string line = std::to_string(record.cycle) + "," + std::to_string(record.points) + ","
                          + std::to_string(record.tets) + ","
                          + format_cell(Kind::figure, mesh.requested_tets, 10, -1, "") + ","
-                         + std::to_string(mesh.unmet_sizes) + "," + figure(mesh.volume_drift) + ","
-                         + figure(mesh.largest_projection) + "," + std::to_string(mesh.unprojected)
-                         + "," + figure(mesh.min_dihedral) + "," + figure(mesh.max_dihedral) + ","
-                         + figure(mesh.max_aspect_ratio);
+                         + std::to_string(mesh.unmet_sizes) + "," + figure(visible_drift(mesh))
+                         + "," + figure(mesh.largest_projection) + ","
+                         + std::to_string(mesh.unprojected) + "," + figure(mesh.min_dihedral) + ","
+                         + figure(mesh.max_dihedral) + "," + figure(mesh.max_aspect_ratio);
       for (const unsigned long count : mesh.dihedral_histogram)
         line += "," + std::to_string(count);
       return line + "," + csv_text(mesh.census) + "\n";
@@ -93,8 +92,7 @@ namespace tetradapt::report
         + (mesh.requested_tets ? ", " + number(*mesh.requested_tets) + " asked for" : "");
     if (mesh.requested_tets || mesh.unmet_sizes > 0)
       text += ", " + std::to_string(mesh.unmet_sizes) + " more than twice as large as wanted";
-    // Below, sums of rounding errors.
-    text += std::abs(mesh.volume_drift) > 1e-12
+    text += visible_drift(mesh) != 0.
               ? ", volume changed by " + number(100. * mesh.volume_drift) + " %"
               : ", volume kept";
     if (mesh.largest_projection > 0. || mesh.unprojected > 0)

@@ -261,6 +261,14 @@ namespace tetradapt::report
     }
   } // namespace
 
+  std::optional<double>
+  main_effectivity(const adapt::CycleRecord &record)
+  {
+    if (!record.estimates.empty() && record.estimates.front().effectivity)
+      return record.estimates.front().effectivity;
+    return record.effectivity;
+  }
+
   std::vector<PlotSlope>
   theoretical_slopes(const std::vector<unsigned int> &degrees, const bool with_l2)
   {
@@ -321,9 +329,7 @@ namespace tetradapt::report
               gnuplot_script(study_plot(title, y_label, abscissa, runs, figure, with_slopes))};
     };
     LinePlot effectivity
-      = study_plot(title, "estimated over true error", Abscissa::cycle, runs, [](const Record &r) {
-          return r.effectivity;
-        });
+      = study_plot(title, "estimated over true error", Abscissa::cycle, runs, main_effectivity);
     bool is_large = false;
     for (const PlotCurve &curve : effectivity.curves)
       for (const auto &point : curve.points)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 namespace tetradapt::report
 {
@@ -199,7 +200,12 @@ namespace tetradapt::report
                          [](const Record &r) { return r.mesh.requested_tets; },
                          "mesh"});
       add("unmet_sizes", Kind::count, &Mesh::unmet_sizes);
-      add("volume_drift", Kind::figure, &Mesh::volume_drift);
+      columns.push_back({"volume_drift",
+                         Kind::figure,
+                         [](const Record &r) -> Value {
+                           return r.mesh.max_dihedral > 0. ? Value(visible_drift(r.mesh)) : Value();
+                         },
+                         "mesh"});
       if (with_projection)
         {
           add("largest_projection", Kind::figure, &Mesh::largest_projection);
@@ -323,6 +329,12 @@ namespace tetradapt::report
                                  }),
                   columns.end());
     return columns;
+  }
+
+  double
+  visible_drift(const adapt::MeshRecord &mesh)
+  {
+    return std::abs(mesh.volume_drift) > 1e-12 ? mesh.volume_drift : 0.;
   }
 
   const std::array<unsigned int, 8> dihedral_class_begins{{0, 5, 10, 20, 30, 40, 50, 60}};

@@ -130,6 +130,7 @@ namespace tetradapt::scene
                      start + "Parameters: '" + name
                        + "' is no full name of a parameter, "
                          "such as Adaptivity/Driver.");
+            check_name(path, names);
             const Place place = places_of_values.at(start + "Values");
             lines.erase(place.file + "\n" + full_name(path)); // setting it again is meant
             set_existing(path, variation.cases[number][i], place);
@@ -147,15 +148,27 @@ namespace tetradapt::scene
       }
 
     private:
-      /** Sets the parameter whose section and name @p path holds; its section must be in
-       * the file. */
+      /** @throws InputError if @p path is not that of a parameter in a section that the
+       * file has. */
       void
-      set_existing(SectionPath path, const std::string &value, const Place &place)
+      check_name(SectionPath path, const Place &place)
       {
         const std::string name = path.back();
         path.pop_back();
         for (std::size_t n = 1; n <= path.size(); ++n)
           find_existing({path.begin(), path.begin() + n}, place);
+        if (find(path)->entry(name) == nullptr)
+          refuse_entry(*find(path), path, name, place);
+      }
+
+      /** Sets the parameter whose section and name @p path holds; its section must be in
+       * the file. */
+      void
+      set_existing(SectionPath path, const std::string &value, const Place &place)
+      {
+        check_name(path, place);
+        const std::string name = path.back();
+        path.pop_back();
         set(path, name, value, place);
       }
 

@@ -91,8 +91,12 @@ namespace
     std::cout << what << ": ";
     try
       {
-        cli::load_scene(file, options);
-        std::cout << "accepted\n";
+        const auto  scene = cli::load_scene(file, options);
+        std::string runs;
+        if (!scene.variations.empty())
+          for (const auto &run : cli::load_study(scene, options))
+            runs += (runs.empty() ? ": " : ", ") + run.name;
+        std::cout << "accepted" << runs << '\n';
       }
     catch (const core::InputError &error)
       {
@@ -282,6 +286,60 @@ namespace
     scene("output to a file", and_then("subsection Output\nset Directory = s.prm\nend"));
   }
 
+  /** The good scene with a study of two blocks, from line 23 on. */
+  void
+  variations(const std::string &what,
+             const std::string &parameters,
+             const std::string &values,
+             const std::string &more   = "",
+             const std::string &second = "TetGen/Radius-edge ratio")
+  {
+    scene(what,
+          and_then("subsection Study\n subsection a\n  set Parameters = " + parameters
+                   + "\n  set Values = " + values + "\n" + more
+                   + " end\n subsection b\n  set Parameters = " + second
+                   + "\n  set Values = 1.2 | 2\n end\nend"));
+  }
+
+  void
+  bad_variations()
+  {
+    variations("study", "Degree", "1 | 2");
+    variations("study with strange labels",
+               "Loads/tip/Value & Degree",
+               "0; 0; 1 & 1 | 0; 1; 0 & 2",
+               "  set Labels = ../../etc | \xC3\xA9 / 'x'\n");
+    variations("study of nothing", "", "1");
+    variations("study without values", "Degree", "");
+    variations("study of an unknown parameter", "Degre", "1 | 2");
+    variations("study of an unknown section", "Tetgen/Radius-edge ratio", "1 | 2");
+    variations("study of an unknown block", "Loads/tipp/Value", "0; 0; 1");
+    variations("study of a section", "Loads/tip", "0; 0; 1");
+    variations("study of half a name", "Loads//Value", "0; 0; 1");
+    variations("study of a study", "Study/b/Values", "3");
+    variations("study of a value that does not fit", "Degree", "1 | two");
+    variations("study of a value that makes no sense", "Degree", "1 | 3");
+    variations("study of too few values", "Degree & TetGen/Keep boundary", "1 & yes | 2");
+    variations("study of two that fit in no combination",
+               "TetGen/Minimum dihedral angle",
+               "10 | 70");
+    variations("study that varies one thing twice", "Degree", "1 | 2", "", "Degree");
+    variations("study with a label too few", "Degree", "1 | 2", "  set Labels = one\n");
+    variations("study of too many runs", "TetGen/Time limit", []() {
+      std::string values = "1";
+      for (unsigned int i = 2; i < 600; ++i)
+        values += " | " + std::to_string(i);
+      return values;
+    }());
+    write("inner.prm",
+          text_of(good)
+            + "subsection Study\n subsection a\n  set Parameters = Degree\n"
+              "  set Values = 1 | 2\n end\nend\n");
+    scene("study of an included file, changed",
+          "include inner.prm\nsubsection Study\n subsection a\n"
+          "  set Values = 2 | 5\n end\nend\n");
+  }
+
   void
   bad_command_lines()
   {
@@ -310,6 +368,7 @@ main()
   bad_expressions();
   bad_meshes();
   bad_studies();
+  bad_variations();
   bad_command_lines();
   std::cout << n_refused << " of " << n_cases << " refused\n";
 }

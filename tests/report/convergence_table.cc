@@ -42,7 +42,38 @@ make_record(const unsigned int cycle)
       r.estimate              = 1e300 / 7.;
       r.effectivity           = -0.;
       r.reference_error       = 123456789.123456789;
+      // What drives comes first; the other one is not ready in the first cycle.
+      adapt::EstimateRecord richardson;
+      richardson.name     = "richardson";
+      richardson.global   = 0.25;
+      richardson.relative = 0.125;
+      r.estimates         = {richardson};
     }
+  adapt::EstimateRecord spr;
+  spr.name        = "local degree";
+  spr.global      = 0.5 + cycle;
+  spr.relative    = 0.0625;
+  spr.effectivity = 1.03125;
+  spr.seconds     = 0.03125;
+  r.estimates.insert(r.estimates.begin(), spr);
+  adapt::GoalRecord goal;
+  goal.name  = "tip";
+  goal.value = 4. - cycle;
+  goal.exact = 5.;
+  goal.error = 1. + cycle;
+  r.goals    = {goal};
+  goal.name  = "a b"; // reads like the next one in a column's name
+  r.goals.push_back(goal);
+  goal.name  = "a_b";
+  goal.value = 7.;
+  r.goals.push_back(goal);
+  r.mesh.min_dihedral = 10.5;
+  r.mesh.max_dihedral = 160.25;
+  r.mesh.unmet_sizes  = 3 + cycle;
+  if (cycle > 0)
+    r.mesh.requested_tets = 12345000.;
+  r.iterations_to_tolerance = 30;
+  r.acceptance = cycle == 1 ? adapt::Acceptance::rejected : adapt::Acceptance::accepted;
   return r;
 }
 
@@ -61,7 +92,7 @@ check_csv(const std::string &text, const std::vector<adapt::CycleRecord> &record
     {
       line += ',';
       std::istringstream row(line);
-      for (const report::RecordColumn &column : report::record_columns())
+      for (const report::RecordColumn &column : report::record_columns(records))
         {
           std::string cell;
           std::getline(row, cell, ',');
@@ -108,10 +139,9 @@ main()
   std::cout << "All columns have a value in some row:\n"
             << report::text_table(records) << "Some have none:\n"
             << report::text_table({make_record(0)}) << std::endl;
-  std::cout << "Widths: heading " << report::terminal_heading().size() << ", rows "
-            << report::terminal_row(records[0]).size() << ' '
-            << report::terminal_row(records[1]).size() << std::endl;
-
+  adapt::CycleRecord plain;
+  plain.cycle = 7;
+  std::cout << "Nothing but a solution:\n" << report::csv_table({plain}) << std::endl;
   // A run of two cycles: the files are whole after each, nothing else is left.
   auto mesh    = std::make_shared<mesh::TetMesh>();
   mesh->points = {{0., 0., 0.}, {1., 0., 0.}, {0., 1., 0.}, {0., 0., 1.}};

@@ -53,6 +53,10 @@ test_directory()
                                  "beam.pvd",
                                  "convergence.csv",
                                  "convergence.txt",
+                                 "results.csv",
+                                 "study.txt",
+                                 "mesh.csv",
+                                 "size_field.vtu",
                                  "log.txt",
                                  ".log.txt.4321.0.tmp",
                                  ".cycle_007.vtu.4321.12.tmp",
@@ -66,9 +70,15 @@ test_directory()
                                  ".log.txt.tmp",
                                  "notes.txt"})
     core::write_file(first.file(name), "old");
+  fs::create_directory(first.file("plots"));
+  for (const std::string name : {"ren.svg", "ren.gp", "mine.svg"})
+    core::write_file(first.file("plots/" + name), "old");
   fs::create_directory(first.file("cycle_001.vtu"));
   const report::OutputDirectory second(scene);
   print_files("cleared");
+  std::cout << "plots: ren " << fs::exists(first.file("plots/ren.svg"))
+            << fs::exists(first.file("plots/ren.gp")) << ", mine "
+            << fs::exists(first.file("plots/mine.svg")) << std::endl;
 
   second.write_parameters("set Degree = 2\n");
   core::write_file(second.file("convergence.csv"), "");

@@ -147,7 +147,8 @@ namespace program
         return 1e300;
       double largest = 0.;
       for (const auto &column : columns)
-        if (column.first.find("seconds") != 0 && column.first != "iterations")
+        if (column.first.find("seconds") != 0 && column.first.find("iterations") != 0
+            && column.first != "algebraic_error")
           for (unsigned int row = 0; row < n_rows(); ++row)
             {
               const double a = column.second[row], b = other.value(column.first, row);

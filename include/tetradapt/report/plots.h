@@ -43,6 +43,11 @@ namespace tetradapt::report
   std::vector<NamedPlot>
   plots_of_study(const std::string &title, const std::vector<PlottedRun> &runs);
 
+  /** The effectivity of the estimator that drives, or where it has none that of the
+   * difference to the reference. */
+  std::optional<double>
+  main_effectivity(const adapt::CycleRecord &record);
+
   /** Best slopes in unknowns for elements of the degrees in use: the energy norm's, and
    * with @p with_l2 those of L2 too. */
   std::vector<PlotSlope>

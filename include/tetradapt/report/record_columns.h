@@ -4,6 +4,7 @@
 
 #include "tetradapt/adapt/observer.h"
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -53,6 +54,10 @@ namespace tetradapt::report
    * the driving estimator and its effectivity, the first goal, the time. */
   std::vector<TerminalColumn>
   terminal_columns(const std::vector<adapt::CycleRecord> &records);
+
+  /** MeshRecord::volume_drift, or 0 where it is a sum of rounding errors. */
+  double
+  visible_drift(const adapt::MeshRecord &mesh);
 
   /** Lower ends in degrees of the classes of MeshRecord::dihedral_histogram. */
   extern const std::array<unsigned int, 8> dihedral_class_begins;
