@@ -189,8 +189,7 @@ namespace tetradapt::estimate
                                    const solve::StaticSolution  &solution,
                                    MPI_Comm                      communicator)
     : solution(checked(solution)), enriched_space(*solution.displacement, materials, communicator),
-      prescribed(prescribe_surplus(scene.supports, enriched_space.surplus())),
-      block_inverses(inverse_blocks(enriched_space.surplus_diagonal()))
+      prescribed(prescribe_surplus(scene.supports, enriched_space.surplus()))
   {
     Values             extra(enriched_space.size(), 0.);
     const SurplusLoads surplus_loads(scene, materials, enriched_space);
@@ -253,6 +252,8 @@ namespace tetradapt::estimate
       for (unsigned int c = 0; c < 3; ++c)
         result[3 * i + c] = nodal_result[i][c];
 
+    if (block_inverses.empty()) // not every caller comes here
+      block_inverses = inverse_blocks(enriched_space.surplus_diagonal());
     const double *r = residual.data() + 3 * n_nodes;
     double       *z = result.data() + 3 * n_nodes;
     for (const double *b = block_inverses.data(), *end = b + block_inverses.size(); b != end;

@@ -69,9 +69,9 @@ namespace tetradapt::estimate
 
     const solve::StaticSolution      &solution;
     EnrichedSpace                     enriched_space;
-    mechanics::PrescribedDisplacement prescribed; ///< of the surplus
-    Values                            loads;      ///< F(phi_i)
-    Values                            block_inverses;
+    mechanics::PrescribedDisplacement prescribed;     ///< of the surplus
+    Values                            loads;          ///< F(phi_i)
+    mutable Values                    block_inverses; ///< made when they are first asked for
     mutable std::vector<Tensor<1, 3>> nodal_residual, nodal_result; ///< work space
   };
 } // namespace tetradapt::estimate
