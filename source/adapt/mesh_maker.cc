@@ -95,9 +95,26 @@ namespace tetradapt::adapt
   {
     log.progress("TetGen refines " + std::to_string(old.n_cells()) + " tetrahedra");
     mesh::TetgenReport report;
-    mesh::TetMesh      mesh = tetgen.refine(old, field.sizing, &report);
-    mesh::warn_of_unmet_wishes(report, log);
-    return mesh;
+    mesh::Sizing       sizing = field.sizing;
+    // A projected boundary may be what TetGen fails on, here or there: with slightly
+    // other points it often does not.
+    for (unsigned int attempts_left = projection == nullptr ? 0 : 3;; --attempts_left)
+      try
+        {
+          mesh::TetMesh mesh = tetgen.refine(old, sizing, &report);
+          mesh::warn_of_unmet_wishes(report, log);
+          return mesh;
+        }
+      catch (const core::NumericalError &error)
+        {
+          if (attempts_left == 0)
+            throw;
+          log.warning(error.what() + std::string(" Trying again with slightly smaller sizes."));
+          for (double &size : sizing.node_sizes)
+            size *= 0.95;
+          for (double &volume : sizing.cell_volumes)
+            volume *= 0.86;
+        }
   }
 
   mesh::TetMesh

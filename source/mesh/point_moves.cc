@@ -1,18 +1,27 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/mesh/point_moves.h"
 
+#include "local_smoothing.h"
+
+#include "tetradapt/core/exceptions.h"
+#include "tetradapt/geometry/surface_intersections.h"
+
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace tetradapt::mesh
 {
   namespace
   {
-    constexpr double       good_enough = 0.2; ///< mean ratio that a cell may always have
-    constexpr double       good        = 0.5; ///< mean ratio above which none is smoothed
-    constexpr double       least_way   = 0.1; ///< part of a way below which a point stays
-    constexpr unsigned int n_sweeps    = 4;   ///< of smoothing, before ways are halved
-    constexpr unsigned int most_rounds = 12;
+    constexpr double       good_enough   = 0.2;  ///< mean ratio that a cell may always have
+    constexpr double       least_cosine  = 0.5;  ///< of the angle by which a face may turn
+    constexpr double       least_way     = 0.1;  ///< part of a way below which a point stays
+    constexpr double       far_away      = 0.15; ///< by an edge: ways that take points along
+    constexpr unsigned int n_layers      = 5;    ///< of cells around such ways
+    constexpr unsigned int n_relaxations = 15;
+    constexpr unsigned int n_sweeps      = 4; ///< of smoothing, before ways are halved
+    constexpr unsigned int most_rounds   = 12;
 
     /** The state of one call of move_points(). */
     class GuardedMove
@@ -32,6 +41,15 @@ namespace tetradapt::mesh
               }
         for (const PointMove &move : moves)
           origins.push_back(mesh.points[move.point]);
+        for (unsigned int f = 0; f < mesh.faces.size(); ++f)
+          for (const unsigned int v : mesh.faces[f].vertices)
+            if (move_of_point[v] != none)
+              {
+                const Tensor<1, 3> area = face_area_vector(mesh, mesh.faces[f]);
+                faces.push_back(f);
+                normals.push_back(area / area.norm());
+                break;
+              }
       }
 
       MoveReport
@@ -39,6 +57,8 @@ namespace tetradapt::mesh
       {
         for (unsigned int i = 0; i < moves.size(); ++i)
           mesh.points[moves[i].point] = moves[i].target;
+        settle_boundary();
+        take_along();
         for (unsigned int round = 0; true; ++round)
           {
             for (unsigned int sweep = 0; sweep < n_sweeps; ++sweep)
@@ -46,37 +66,29 @@ namespace tetradapt::mesh
                 const auto poor = cells_below(round == 0 ? wishes : floors);
                 if (poor.empty())
                   break;
-                if (first.empty())
-                  prepare_smoothing();
+                prepare_smoothing();
                 smooth(poor);
               }
-            const auto bad = cells_below(floors);
-            if (bad.empty())
+            const auto bad       = cells_below(floors);
+            const auto bad_faces = turned_faces();
+            if (bad.empty() && bad_faces.empty() && !part_crossing_faces(round >= most_rounds))
               return report();
             for (const unsigned int c : bad)
-              step_back(c, round >= most_rounds);
+              step_back(mesh.cells[c], round >= most_rounds);
+            for (const unsigned int f : bad_faces)
+              step_back(mesh.faces[f].vertices, round >= most_rounds);
           }
       }
 
     private:
-      double
-      quality(unsigned int cell) const
-      {
-        const auto &v = mesh.cells[cell];
-        return mean_ratio(mesh.points[v[0]],
-                          mesh.points[v[1]],
-                          mesh.points[v[2]],
-                          mesh.points[v[3]]);
-      }
-
       /** Begins to watch a cell, which must be as it was at the beginning. */
       void
       watch(unsigned int cell)
       {
         watched.push_back(cell);
-        const double before = quality(cell);
+        const double before = mean_ratio(mesh, cell);
         floors.push_back(std::min(good_enough, 0.5 * before));
-        wishes.push_back(std::min(good, 0.9 * before));
+        wishes.push_back(std::min(good_mean_ratio, 0.9 * before));
       }
 
       std::vector<unsigned int>
@@ -84,131 +96,177 @@ namespace tetradapt::mesh
       {
         std::vector<unsigned int> bad;
         for (std::size_t i = 0; i < watched.size(); ++i)
-          if (!(quality(watched[i]) >= bounds[i]))
+          if (!(mean_ratio(mesh, watched[i]) >= bounds[i]))
             bad.push_back(watched[i]);
         return bad;
       }
 
-      /** Cells around each point, and which points may be smoothed. */
+      /** Faces that turned too far: cells that are all positive may overlap where the
+       * boundary folds. */
+      std::vector<unsigned int>
+      turned_faces() const
+      {
+        std::vector<unsigned int> turned;
+        for (std::size_t i = 0; i < faces.size(); ++i)
+          {
+            const Tensor<1, 3> area = face_area_vector(mesh, mesh.faces[faces[i]]);
+            if (!(area * normals[i] >= least_cosine * area.norm()))
+              turned.push_back(faces[i]);
+          }
+        return turned;
+      }
+
+      /** Steps back where boundary faces cross; whether there were any that could.
+       * Cells can all be positive and yet overlap, beside a fold of the boundary. */
+      bool
+      part_crossing_faces(bool all_the_way)
+      {
+        if (!goes_far)
+          return false;
+        geometry::SurfaceMesh surface;
+        surface.points = mesh.points;
+        for (const auto &face : mesh.faces)
+          surface.triangles.push_back(face.vertices);
+        std::vector<std::pair<unsigned int, unsigned int>> pairs;
+        try
+          {
+            pairs = geometry::self_intersections(surface);
+          }
+        catch (const core::InputError &)
+          {
+            return false; // no manifold: nothing is known
+          }
+        bool parted = false;
+        for (const auto &[f, g] : pairs)
+          for (const unsigned int face : {f, g})
+            parted = step_back(mesh.faces[face].vertices, all_the_way) || parted;
+        return parted;
+      }
+
+      /** Steps back where no smoothing can help: faces that turned, and bad cells without a
+       * corner inside. */
+      void
+      settle_boundary()
+      {
+        for (unsigned int round = 0; true; ++round)
+          {
+            const auto bad       = cells_below(floors);
+            const auto bad_faces = turned_faces();
+            bool       settled   = true;
+            if (!bad.empty())
+              prepare_smoothing();
+            for (const unsigned int c : bad)
+              if (std::none_of(mesh.cells[c].begin(), mesh.cells[c].end(), [&](unsigned int v) {
+                    return smoothing->is_free(v);
+                  }))
+                {
+                  step_back(mesh.cells[c], round >= most_rounds);
+                  settled = false;
+                }
+            for (const unsigned int f : bad_faces)
+              {
+                step_back(mesh.faces[f].vertices, round >= most_rounds);
+                settled = false;
+              }
+            if (settled)
+              return;
+          }
+      }
+
       void
       prepare_smoothing()
       {
-        first.assign(mesh.n_points() + 1, 0);
-        for (const auto &cell : mesh.cells)
-          for (const unsigned int v : cell)
-            ++first[v + 1];
-        for (unsigned int p = 0; p < mesh.n_points(); ++p)
-          first[p + 1] += first[p];
-        around.resize(first.back());
-        std::vector<unsigned int> place(first.begin(), first.end() - 1);
-        for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-          for (const unsigned int v : mesh.cells[c])
-            around[place[v]++] = c;
-
-        is_free.assign(mesh.n_points(), 1);
-        for (const auto &face : mesh.faces)
-          for (const unsigned int v : face.vertices)
-            is_free[v] = 0;
-        for (unsigned int p = 0; p < mesh.n_points(); ++p)
-          for (unsigned int k = first[p]; k < first[p + 1]; ++k)
-            if (mesh.regions[around[k]] != mesh.regions[around[first[p]]])
-              is_free[p] = 0;
+        if (smoothing != nullptr)
+          return;
+        smoothing = std::make_unique<LocalSmoothing>(mesh);
+        inside    = mesh.points;
         smoothed.assign(mesh.n_points(), 0);
-        inside = mesh.points;
         is_watched.assign(mesh.n_cells(), 0);
         for (const unsigned int c : watched)
           is_watched[c] = 1;
       }
 
+      /** Moves the points inside near those that go far, each by the mean of the ways around
+       * it: where a way is as long as a cell, smoothing one point at a time is not
+       * enough. */
+      void
+      take_along()
+      {
+        std::vector<unsigned int> far;
+        std::vector<char>         is_far(moves.size(), 0);
+        for (const unsigned int c : watched)
+          for (const unsigned int v : mesh.cells[c])
+            if (const unsigned int i = move_of_point[v]; i != none && is_far[i] == 0)
+              for (const unsigned int w : mesh.cells[c])
+                if (w != v
+                    && mesh.points[v].distance(origins[i])
+                         > far_away * origins[i].distance(mesh.points[w]))
+                  is_far[i] = 1;
+        for (unsigned int i = 0; i < moves.size(); ++i)
+          if (is_far[i] != 0)
+            far.push_back(moves[i].point);
+        goes_far = !far.empty();
+        if (!goes_far)
+          return;
+        prepare_smoothing();
+
+        const std::vector<unsigned int> near = smoothing->free_points_near(far, n_layers);
+        std::vector<Tensor<1, 3>>       ways(mesh.n_points());
+        for (unsigned int i = 0; i < moves.size(); ++i)
+          ways[moves[i].point] = mesh.points[moves[i].point] - origins[i];
+        for (unsigned int sweep = 0; sweep < n_relaxations; ++sweep)
+          for (const unsigned int p : near)
+            {
+              const auto [first, end] = smoothing->cells_around(p);
+              Tensor<1, 3> sum;
+              for (const unsigned int *cell = first; cell != end; ++cell)
+                for (const unsigned int v : mesh.cells[*cell])
+                  if (v != p)
+                    sum += ways[v];
+              ways[p] = sum / (3. * (end - first));
+            }
+        for (const unsigned int p : near)
+          watch_around(p);
+        for (const unsigned int p : near)
+          {
+            mesh.points[p] += ways[p];
+            smoothed[p] = 1;
+          }
+      }
+
       void
       watch_around(unsigned int point)
       {
-        for (unsigned int k = first[point]; k < first[point + 1]; ++k)
-          if (is_watched[around[k]] == 0)
+        const auto [first, end] = smoothing->cells_around(point);
+        for (const unsigned int *cell = first; cell != end; ++cell)
+          if (is_watched[*cell] == 0)
             {
-              is_watched[around[k]] = 1;
-              watch(around[k]);
+              is_watched[*cell] = 1;
+              watch(*cell);
             }
       }
 
-      double
-      worst_around(unsigned int point) const
-      {
-        double worst = 1.;
-        for (unsigned int k = first[point]; k < first[point + 1]; ++k)
-          worst = std::min(worst, quality(around[k]));
-        return worst;
-      }
-
-      Point<3>
-      centre_around(unsigned int point) const
-      {
-        Point<3> sum;
-        double   n = 0.;
-        for (unsigned int k = first[point]; k < first[point + 1]; ++k)
-          for (const unsigned int v : mesh.cells[around[k]])
-            if (v != point)
-              {
-                sum += mesh.points[v];
-                n += 1.;
-              }
-        return sum / n;
-      }
-
-      /** Puts the free points of bad cells where the worst cell around them is best. */
       void
-      smooth(const std::vector<unsigned int> &bad)
+      smooth(const std::vector<unsigned int> &poor)
       {
-        for (const unsigned int c : bad)
+        for (const unsigned int c : poor)
           for (const unsigned int p : mesh.cells[c])
-            {
-              if (is_free[p] == 0)
-                continue;
-              watch_around(p);
-              const Point<3>     here   = mesh.points[p];
-              const Tensor<1, 3> to_mid = centre_around(p) - here;
-              const Tensor<1, 3> away   = away_from_opposite(c, p);
-              Point<3>           best   = here;
-              double             value  = worst_around(p);
-              for (const Tensor<1, 3> &direction : {to_mid, away, -away})
-                for (const double part : {1., 0.5, 0.25, 0.125})
-                  {
-                    mesh.points[p]         = here + part * direction;
-                    const double candidate = worst_around(p);
-                    if (candidate > value + 1e-3)
-                      {
-                        value = candidate;
-                        best  = mesh.points[p];
-                      }
-                  }
-              mesh.points[p] = best;
-              if (best != here)
-                smoothed[p] = 1;
-            }
+            if (smoothing->is_free(p))
+              {
+                watch_around(p);
+                if (smoothing->improve(c, p))
+                  smoothed[p] = 1;
+              }
       }
 
-      /** Normal of a cell's face opposite a corner towards that corner, half as long as
-       * the face is wide. */
-      Tensor<1, 3>
-      away_from_opposite(unsigned int cell, unsigned int point) const
-      {
-        std::array<unsigned int, 3> f{};
-        unsigned int                n = 0;
-        for (const unsigned int v : mesh.cells[cell])
-          if (v != point)
-            f[n++ % 3] = v;
-        const Tensor<1, 3> area = dealii::cross_product_3d(mesh.points[f[1]] - mesh.points[f[0]],
-                                                           mesh.points[f[2]] - mesh.points[f[0]]);
-        return 0.5 * area / std::sqrt(area.norm());
-      }
-
-      /** Halves the ways of a bad cell's points; where there is none left, the points
+      /** Halves the ways of the corners of a bad cell or face; where there is none left, the points
        * inside go back. Then the cell is as it was. */
-      void
-      step_back(unsigned int cell, bool all_the_way)
+      template <std::size_t n>
+      bool
+      step_back(const std::array<unsigned int, n> &corners, bool all_the_way)
       {
         bool stepped = false;
-        for (const unsigned int v : mesh.cells[cell])
+        for (const unsigned int v : corners)
           if (const unsigned int i = move_of_point[v]; i != none && way[i] > 0.)
             {
               way[i] = all_the_way || way[i] <= least_way ? 0. : 0.5 * way[i];
@@ -216,14 +274,15 @@ namespace tetradapt::mesh
                 = way[i] > 0. ? origins[i] + way[i] * (moves[i].target - origins[i]) : origins[i];
               stepped = true;
             }
-        if (!stepped || all_the_way)
-          for (const unsigned int v : mesh.cells[cell])
-            if (is_free[v] != 0)
+        if (smoothing != nullptr && (!stepped || all_the_way))
+          for (const unsigned int v : corners)
+            if (smoothing->is_free(v))
               {
                 mesh.points[v] = inside[v];
-                is_free[v]     = 0;
                 smoothed[v]    = 0;
+                smoothing->fix(v);
               }
+        return stepped;
       }
 
       MoveReport
@@ -251,17 +310,21 @@ namespace tetradapt::mesh
 
       TetMesh                      &mesh;
       const std::vector<PointMove> &moves;
-      std::vector<double>           way; ///< part of the way to the target, per move
+      bool                          goes_far = false; ///< beside the cells' edges
+      std::vector<double>           way;              ///< part of the way to the target, per move
       std::vector<Point<3>>         origins;
       std::vector<unsigned int>     move_of_point;
+      std::vector<unsigned int>     faces;   ///< with points that move
+      std::vector<Tensor<1, 3>>     normals; ///< of these faces, at the beginning
       std::vector<unsigned int>     watched; ///< cells
       std::vector<double>           floors;  ///< per watched cell: no worse mean ratio
       std::vector<double>           wishes;  ///< ... and where smoothing begins
 
-      std::vector<unsigned int> first, around; ///< cells around points
-      std::vector<char>         is_free, smoothed;
-      std::vector<char>         is_watched; ///< per cell
-      std::vector<Point<3>>     inside;     ///< where points were before smoothing
+      /** Made when it is needed, together with what follows. */
+      std::unique_ptr<LocalSmoothing> smoothing;
+      std::vector<Point<3>>           inside;     ///< where points were before
+      std::vector<char>               smoothed;   ///< points
+      std::vector<char>               is_watched; ///< per cell
     };
   } // namespace
 

@@ -25,7 +25,8 @@ namespace tetradapt::mesh
    * planes. A point where two surfaces meet so stays on both. On a triangulated
    * surface, points of a mesh edge that bends by more than Mesh/Feature angle go to the
    * surface's own sharp edges. A point stays where it is if it would have to go farther
-   * than its longest boundary edge is long, or if move_points() holds it.
+   * than its longest boundary edge is long (the mesh cuts off a detail that it cannot
+   * follow), and goes only as far as move_points() lets it.
    */
   class BoundaryProjection
   {

@@ -35,8 +35,9 @@ namespace tetradapt::mesh
   /**
    * Moves points of the boundary to their targets as far as every cell stays good: its
    * mean ratio must not fall below half of what it was, or below 0.2 if that is less.
-   * Where a cell would, points inside the body around it are moved first to where the
-   * worst cell around them is best; what does not help is taken back by halving the way
+   * Points inside near one that goes far are taken along by the mean of the ways around
+   * them. Where a cell would still become bad, points inside around it are moved to where
+   * the cells around them are best; what does not help is taken back by halving the way
    * of the cell's moving points, down to nothing. Points between regions stay. The mesh
    * must be finalized, and is so after.
    */
