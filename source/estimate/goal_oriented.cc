@@ -15,7 +15,7 @@ namespace tetradapt::estimate
   {
     using Values = EnrichedSpace::Values;
 
-    constexpr double dual_accuracy       = 1e-4; ///< of the dual solution, energy norm
+    constexpr double dual_accuracy       = 1e-3; ///< of the dual solution, energy norm
     constexpr double correction_accuracy = 0.1;  ///< of both corrections, energy norm
     constexpr double least_cosine        = 0.05; ///< of the corrections' angle in a cell
 

@@ -30,8 +30,7 @@ namespace tetradapt::solve
     // Where convergence pauses, the last steps alone look too good before or after.
     const double recent = std::pow(late / sum(n - 2 * w), 1. / w);
     const double mean   = std::pow(late / sum(0), 1. / (n - w));
-    // First steps gain more than those to come: no method here keeps a rate below 0.2.
-    const double rate = std::max({recent, mean, 0.2});
+    const double rate   = std::max(recent, mean);
     return rate < 1. ? std::optional<double>(rate) : std::nullopt;
   }
 
@@ -41,7 +40,8 @@ namespace tetradapt::solve
     const auto factor = rate();
     if (!factor)
       return std::nullopt;
-    const double late = std::pow(*factor, width());
+    // First steps gain more than those to come: a better rate is not to be relied on.
+    const double late = std::pow(std::max(*factor, 0.2), width());
     return sum(gains.size() - width()) * late / (1. - late);
   }
 

@@ -19,7 +19,7 @@ namespace tetradapt::solve
    * J. Res. NBS 49, 1952), so the square of the error is the sum of all gains to come
    * (Strakos and Tichy, ETNA 13, 2002). They wait some steps to see most of that sum;
    * here the coming gains are continued as a geometric series with the rate of the last
-   * ones, so that no step is made for the estimate alone.
+   * ones (but at least 0.2), so that no step is made for the estimate alone.
    */
   class EnergyErrorEstimate
   {
@@ -46,7 +46,7 @@ namespace tetradapt::solve
     }
 
     /** Factor by which a step reduces the square of the error: the slower of the mean
-     * over all steps and that of the last few, at least 0.2; empty where there is no estimate. */
+     * over all steps and that of the last few; empty where there is no estimate. */
     std::optional<double>
     rate() const;
 

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// Extrapolation of the degree finds the error itself where the next degree holds the
+// displacement, in all and in every cell, with prescribed displacements of that degree.
+
+#include "tetradapt/estimate/extrapolation.h"
+
+#include "polynomials.h"
+
+#include <deal.II/base/mpi.h>
+
+using namespace polynomials;
+
+int
+main(int argc, char *argv[])
+{
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const bool first = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  for (const unsigned int degree : {1, 2})
+    for (const unsigned int n : {3, 5})
+      {
+        const scene::Scene scene = make_scene(degree);
+        const Solved       solved(scene, n);
+        const auto         estimate = solved(estimate::DegreeExtrapolation());
+        const auto        &truth    = solved.comparison->to_truth();
+        double             worst = 0., squares = 0.;
+        for (unsigned int cell = 0; cell < solved.body->n_cells(); ++cell)
+          {
+            worst = std::max(worst, std::abs(estimate.indicators[cell] - truth.cell_energy[cell]));
+            squares += std::pow(estimate.indicators[cell], 2);
+          }
+        const double index = estimate.global / truth.energy;
+        if (!first)
+          continue;
+        std::cout << "P" << degree << ", " << solved.body->n_cells() << " cells\n";
+        check("  there is an error, of 0.5 to 30 %",
+              truth.energy > 0.005 * truth.energy_norm && truth.energy < 0.3 * truth.energy_norm);
+        check("  the estimate is the error to 2 %", std::abs(index - 1.) < 0.02);
+        check("  in every cell to 2 % of the whole", worst < 0.02 * truth.energy);
+        check("  root of squares", std::sqrt(squares), estimate.global, estimate.global, 1e-12);
+      }
+}
