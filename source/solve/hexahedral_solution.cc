@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/solve/hexahedral_solution.h"
+
+#include "tetradapt/core/exceptions.h"
+#include "tetradapt/solve/conjugate_gradients.h"
+#include "tetradapt/solve/hexahedral_indicators.h"
+#include "tetradapt/solve/hexahedral_multigrid.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+
+namespace tetradapt::solve
+{
+  namespace
+  {
+    constexpr unsigned int first_cells   = 40;   ///< of the first mesh, at least
+    constexpr double       growth        = 2.;   ///< of the cells from mesh to mesh
+    constexpr double       closure       = 1.4;  ///< cells cut for each one marked
+    constexpr double       algebraic     = 0.03; ///< error of the solver by that of the mesh
+    constexpr double       first_residue = 1e-6; ///< the same by the solution, at first
+    constexpr double       slowest_rate  = 0.25; ///< s of errors N^-s, at strong singularities
+    constexpr double       usual_rate    = 0.65; ///< at edges
+
+    /** All ranks' lists, one after the other. Collective. */
+    std::vector<double>
+    gather(const std::vector<double> &own, MPI_Comm communicator)
+    {
+      if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
+        return own;
+      std::vector<double> all;
+      for (const auto &part : dealii::Utilities::MPI::all_gather(communicator, own))
+        all.insert(all.end(), part.begin(), part.end());
+      return all;
+    }
+
+    /** The whole field, on every rank. Collective. */
+    std::shared_ptr<mesh::HexahedralField>
+    gather_field(const HexahedralLevel &level, const Vector &displacement)
+    {
+      const HexahedralForest &forest = level.forest;
+      const HexahedralGrid   &grid   = forest.grid();
+      std::vector<double>     numbers, nodal;
+      numbers.reserve(7 * forest.cells().size());
+      nodal.reserve(3 * level.space.cell_nodes.size());
+      displacement.update_ghost_values();
+      for (const auto &cell : forest.cells())
+        {
+          for (unsigned int d = 0; d < 3; ++d)
+            numbers.insert(numbers.end(), {cell.lower[d], cell.size[d]});
+          numbers.push_back(grid.regions[cell.brick]);
+        }
+      for (const unsigned int node : level.space.cell_nodes)
+        {
+          const Tensor<1, 3> u = level.space.value(displacement, node);
+          nodal.insert(nodal.end(), {u[0], u[1], u[2]});
+        }
+      displacement.zero_out_ghost_values();
+      numbers = gather(numbers, forest.communicator());
+      nodal   = gather(nodal, forest.communicator());
+
+      std::vector<mesh::HexahedralField::Cell> cells(numbers.size() / 7);
+      std::vector<Tensor<1, 3>>                values(nodal.size() / 3);
+      for (std::size_t c = 0; c < cells.size(); ++c)
+        {
+          for (unsigned int d = 0; d < 3; ++d)
+            {
+              cells[c].lower[d] = numbers[7 * c + 2 * d];
+              cells[c].size[d]  = numbers[7 * c + 2 * d + 1];
+            }
+          cells[c].region = static_cast<int>(numbers[7 * c + 6]);
+        }
+      for (std::size_t i = 0; i < nodal.size(); ++i)
+        values[i / 3][i % 3] = nodal[i];
+      return std::make_shared<mesh::HexahedralField>(level.space.degree,
+                                                     grid.planes,
+                                                     std::move(cells),
+                                                     std::move(values));
+    }
+
+    /** The first iterate: the field of the mesh before, and what is prescribed. */
+    Vector
+    first_iterate(const HexahedralLevel &level, const mesh::HexahedralField *before)
+    {
+      Vector x(level.space.layout);
+      for (unsigned int node = 0; node < level.space.n_owned; ++node)
+        {
+          Tensor<1, 3> u;
+          if (before != nullptr)
+            {
+              Point<3> p;
+              for (unsigned int d = 0; d < 3; ++d)
+                p[d] = level.positions.local_element(3 * node + d);
+              const auto at = before->locate(p);
+              u             = before->value(at.cell, at.unit);
+            }
+          for (unsigned int c = 0; c < 3; ++c)
+            x.local_element(3 * node + c) = (level.supports.fixed[node] >> c & 1) != 0
+                                              ? level.supports.values.local_element(3 * node + c)
+                                              : u[c];
+        }
+      return x;
+    }
+
+    /** Conjugate gradients for what is missing to @p x, until the estimated error in the
+     * energy norm is below @p error. */
+    unsigned int
+    iterate(const HexahedralLevel &level,
+            const Preconditioner  &preconditioner,
+            const Vector          &forces,
+            const double           error,
+            const unsigned int     max_iterations,
+            const core::Log       &log,
+            Vector                &x)
+    {
+      Vector residual(level.space.layout), z(residual), direction(residual), product(residual);
+      level.stiffness.vmult(product, x);
+      const double scale = std::max(forces.l2_norm(), product.l2_norm());
+      residual           = forces;
+      residual -= product;
+      level.supports.set_zero(residual);
+      EnergyErrorEstimate estimate;
+      double              energy = 0.;
+      unsigned int        n      = 0;
+      for (double norm = residual.l2_norm(); norm > 1e-13 * scale;)
+        {
+          if (n == max_iterations || !std::isfinite(norm))
+            throw core::NumericalError(
+              "Conjugate gradients did not converge on the reference's hexahedra in "
+              + std::to_string(n)
+              + " iterations. Look for materials of very different stiffness or a Poisson ratio "
+                "close to 0.5; or raise Solver/Maximum iterations.");
+          preconditioner.vmult(z, residual);
+          const double before = energy;
+          energy              = residual * z;
+          if (n == 0)
+            direction = z;
+          else
+            direction.sadd(energy / before, 1., z);
+          level.stiffness.vmult(product, direction);
+          level.supports.set_zero(product);
+          const double alpha = energy / (direction * product);
+          x.add(alpha, direction);
+          norm = std::sqrt(residual.add_and_dot(-alpha, product, residual));
+          estimate.add(alpha * energy);
+          ++n;
+          const auto left = estimate.squared_error();
+          if (left && *left <= error * error)
+            break;
+          log.progress("reference: conjugate gradients, iteration " + std::to_string(n));
+        }
+      return n;
+    }
+
+    /** By what factor the number of cells is to grow: less where the tolerance is near. */
+    double
+    wanted_growth(const std::optional<double> &error, const double target)
+    {
+      if (!error || !(target > 0.))
+        return growth;
+      return std::min(growth, std::max(1.3, std::pow(1.1 * *error / target, 1. / usual_rate)));
+    }
+
+    /** Marks the own cells among those with the largest indicators. Collective. */
+    std::vector<bool>
+    mark(const std::vector<double> &indicators, const double factor, MPI_Comm communicator)
+    {
+      std::vector<double> all = gather(indicators, communicator);
+      const std::size_t   n   = std::min<std::size_t>(
+        all.size() - 1, static_cast<std::size_t>((factor - 1.) / (7. * closure) * all.size()));
+      std::nth_element(all.begin(), all.begin() + n, all.end(), std::greater<>());
+      // Equal ones are cut together, so that symmetry is kept.
+      const double      least = .999 * all[n];
+      std::vector<bool> flags(indicators.size());
+      for (std::size_t c = 0; c < flags.size(); ++c)
+        flags[c] = indicators[c] >= least;
+      return flags;
+    }
+
+    /** Root of the sum of squares over all ranks. Collective. */
+    double
+    total(const std::vector<double> &indicators, MPI_Comm communicator)
+    {
+      const double own
+        = std::inner_product(indicators.begin(), indicators.end(), indicators.begin(), 0.);
+      return std::sqrt(dealii::Utilities::MPI::sum(own, communicator));
+    }
+
+    /** 1 if the energy a(u,u) is the gain: only loads act; -1 if it is that with the
+     * other sign: only displacements are prescribed; else 0. Collective. */
+    int
+    sign_of_gain(const HexahedralLevel &level, const Vector &forces)
+    {
+      const bool moved  = level.supports.values.linfty_norm() > 0.,
+                 loaded = forces.linfty_norm() > 0.;
+      return moved == loaded ? 0 : loaded ? 1 : -1;
+    }
+
+    void
+    report(const HexahedralSolution    &solution,
+           const unsigned long          n_cells,
+           const unsigned int           iterations,
+           const std::optional<double> &error,
+           const core::Log             &log)
+    {
+      std::ostringstream text;
+      text << "Reference on hexahedra: " << n_cells << " cells, " << solution.n_dofs
+           << " unknowns, " << iterations << " iterations, energy ";
+      text.precision(10);
+      text << solution.energy;
+      text.precision(3);
+      if (error)
+        text << ", estimated relative error " << *error / std::sqrt(solution.energy);
+      log.info(text.str());
+    }
+  } // namespace
+
+  std::optional<double>
+  calibrated_error(const std::vector<EnergyLevel> &levels)
+  {
+    const std::size_t n = levels.size();
+    if (n < 3)
+      return std::nullopt;
+    const EnergyLevel &last   = levels.back();
+    double             factor = 0., largest = 0.; // of squares
+    for (std::size_t steps = 1; steps <= std::min<std::size_t>(5, n - 1); ++steps)
+      {
+        const EnergyLevel &before = levels[n - 1 - steps];
+        const double       gained = last.gain - before.gain;
+        const double       decrease
+          = before.indicator * before.indicator - last.indicator * last.indicator;
+        if (decrease > 0.)
+          factor = std::max(factor, gained / decrease);
+        largest = std::max(
+          largest, gained / std::expm1(2. * slowest_rate * std::log(last.n_dofs / before.n_dofs)));
+      }
+    if (!(largest > 0.))
+      return std::nullopt;
+    const double limit = std::sqrt(largest);
+    return factor > 0. ? std::min(std::sqrt(factor) * last.indicator, limit) : limit;
+  }
+
+  HexahedralSolution
+  solve_on_hexahedra(const scene::Scene           &scene,
+                     const mechanics::MaterialMap &materials,
+                     const mesh::TetMesh          &mesh,
+                     const double                  tolerance,
+                     MPI_Comm                      communicator,
+                     const core::Log              &log)
+  {
+    const HexahedralGrid grid = make_hexahedral_grid(scene, mesh, log);
+    HexahedralForest     forest(grid, communicator);
+    while (forest.n_cells() < first_cells)
+      forest.refine(std::vector<bool>(forest.cells().size(), true));
+
+    HexahedralSolution solution;
+    double             foretold = 0.; // error of the next mesh
+    while (true)
+      {
+        const HexahedralLevel fine(scene, materials, forest, scene.reference.degree);
+        const HexahedralLevel coarse(scene, materials, forest, 1);
+        solution.n_dofs = 3 * fine.space.n_nodes;
+        log.progress("reference: " + std::to_string(solution.n_dofs) + " unknowns on hexahedra");
+        const Vector forces         = nodal_forces(scene, mesh, materials, forest, fine.space);
+        Vector       x              = first_iterate(fine, solution.displacement.get());
+        const auto   preconditioner = make_p_multigrid(fine, coarse);
+        const double limit
+          = foretold > 0. ? algebraic * foretold : first_residue * std::sqrt(solution.energy);
+        const unsigned int iterations
+          = iterate(fine, *preconditioner, forces, limit, scene.solver.max_iterations, log, x);
+
+        Vector product(fine.space.layout);
+        fine.stiffness.vmult(product, x);
+        const double work     = forces * x;
+        solution.energy       = std::max(0., x * product);
+        solution.displacement = gather_field(fine, x);
+        const auto indicators = hexahedral_indicators(forest, fine.space, materials, x);
+        solution.levels.push_back(
+          {double(solution.n_dofs), 2. * work - solution.energy, total(indicators, communicator)});
+        const double norm   = std::sqrt(solution.energy);
+        const double target = tolerance * norm;
+        auto         error  = calibrated_error(solution.levels);
+        if (const int sign = sign_of_gain(fine, forces))
+          {
+            // What conjugate gradients left changes the gain in second order only.
+            solution.energy              = sign * solution.levels.back().gain;
+            solution.extrapolated_energy = solution.energy + sign * std::pow(error.value_or(0.), 2);
+          }
+        if (error)
+          error = *error * (scene.reference.degree == 2 ? 1.5 : 1.3);
+        // Where functions of this degree are the solution, refinement gains nothing.
+        else if (solution.levels.back().indicator < .01 * target)
+          error = solution.levels.back().indicator;
+        report(solution, forest.n_cells(), iterations, error, log);
+        solution.estimated_error = error.value_or(norm);
+        solution.reached         = solution.estimated_error <= target;
+        const double next        = wanted_growth(error, target);
+        if (solution.reached || next * solution.n_dofs > scene.reference.max_dofs)
+          return solution;
+        foretold = error.value_or(0.) * std::pow(next, -usual_rate);
+        forest.refine(mark(indicators, next, communicator));
+      }
+  }
+} // namespace tetradapt::solve

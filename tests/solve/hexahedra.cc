@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// Solutions on hexahedra: exact for linear displacements, within their own estimate of
+// a known energy, and the same as on tetrahedra for all kinds of supports and loads; on
+// one and on two ranks.
+
+#include "tetradapt/solve/hexahedral_multigrid.h"
+#include "tetradapt/solve/hexahedral_solution.h"
+
+#include "solving.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+using namespace bodies;
+using scene::LoadType;
+
+namespace
+{
+  bool first_rank = true;
+
+  void
+  say(const std::string &what, const bool holds)
+  {
+    if (first_rank)
+      check(what, holds);
+  }
+
+  /** The scene's first mesh with its selections. */
+  std::shared_ptr<mesh::TetMesh>
+  mesh_of(const scene::Scene &scene)
+  {
+    return std::make_shared<mesh::TetMesh>(mesh::make_mesh(scene, 0, core::Log()));
+  }
+
+  solve::HexahedralSolution
+  solve_hexahedra(const scene::Scene &scene, const mesh::TetMesh &mesh, const double tolerance)
+  {
+    const mechanics::MaterialMap materials(scene, mesh);
+    return solve::solve_on_hexahedra(
+      scene, materials, mesh, tolerance, MPI_COMM_WORLD, core::Log());
+  }
+
+  scene::Scene
+  l_shape()
+  {
+    scene::Scene scene;
+    scene.mesh.source        = scene::MeshSource::blocks;
+    scene.mesh.blocks        = {{Point<3>(0, 0, 0), Point<3>(1, 1, 1)},
+                                {Point<3>(1, 0, 0), Point<3>(2, 1, 1)},
+                                {Point<3>(0, 0, 1), Point<3>(1, 1, 2)}};
+    scene.mesh.block_regions = {0, 1, 0};
+    scene.materials          = {material("soft", 10., 0.3)};
+    return scene;
+  }
+
+  /** On cells of three sizes: constant stress is in equilibrium at all inner nodes, and
+   * the energy of a quadratic displacement is exact. */
+  void
+  test_patch(const unsigned int degree)
+  {
+    scene::Scene scene                = l_shape();
+    scene.supports                    = {support("all", "")};
+    const auto                   mesh = mesh_of(scene);
+    const mechanics::MaterialMap materials(scene, *mesh);
+    const auto                   grid = solve::make_hexahedral_grid(scene, *mesh, core::Log());
+    solve::HexahedralForest      forest(grid, MPI_COMM_WORLD);
+    for (const double radius : {9., 1.2, .5})
+      {
+        std::vector<bool> flags;
+        for (const auto &cell : forest.cells())
+          flags.push_back(cell.lower.distance(Point<3>(1, .5, .5)) < radius);
+        forest.refine(flags);
+      }
+    const solve::HexahedralLevel level(scene, materials, forest, degree);
+    const std::string            name = "patch, degree " + std::to_string(degree) + ": ";
+
+    Tensor<2, 3> G;
+    for (unsigned int i = 0; i < 9; ++i)
+      G[i / 3][i % 3] = .1 * (int(i * 7 % 5) - 2);
+    const auto displacement = [&](const Point<3> &x, const bool quadratic) {
+      Tensor<1, 3> u = G * Tensor<1, 3>(x);
+      if (quadratic)
+        for (unsigned int d = 0; d < 3; ++d)
+          u[d] = x[d] * x[(d + 1) % 3];
+      return u;
+    };
+    solve::Vector u[2], forces(level.space.layout);
+    for (const bool quadratic : {false, true})
+      {
+        u[quadratic].reinit(level.space.layout);
+        for (unsigned int i = 0; i < level.space.n_owned; ++i)
+          {
+            Point<3> x;
+            for (unsigned int d = 0; d < 3; ++d)
+              x[d] = level.positions.local_element(3 * i + d);
+            for (unsigned int d = 0; d < 3; ++d)
+              u[quadratic].local_element(3 * i + d) = displacement(x, quadratic)[d];
+          }
+      }
+    u[1].update_ghost_values();
+    double largest = 0.;
+    for (unsigned int c = 0; c < forest.cells().size(); ++c)
+      for (unsigned int v = 0; v < 8; ++v)
+        {
+          const Point<3>     unit(v & 1, v >> 1 & 1, v >> 2);
+          const unsigned int n = degree + 1, place = (v & 1) * degree + n * ((v >> 1 & 1) * degree)
+                                                     + n * n * ((v >> 2) * degree);
+          largest = std::max(largest,
+                             (level.space.value(u[1], level.space.nodes(c)[place])
+                              - displacement(forest.cells()[c].at(unit), true))
+                               .norm());
+        }
+    u[1].zero_out_ghost_values();
+    say(name + "some nodes hang",
+        dealii::Utilities::MPI::max(level.space.parents.size(), MPI_COMM_WORLD) > 0);
+    say(name + "they hang right", dealii::Utilities::MPI::max(largest, MPI_COMM_WORLD) < 1e-12);
+
+    level.stiffness.vmult(forces, u[0]);
+    const double scale = forces.linfty_norm();
+    const double work  = forces * u[0];
+    level.supports.set_zero(forces);
+    const double exact = 3. * materials.law(0).energy_density(dealii::symmetrize(G));
+    say(name + "equilibrium", scale > .01 && forces.linfty_norm() < 1e-12 * scale);
+    say(name + "energy of constant strain", std::abs(work / exact - 1.) < 1e-12);
+
+    // eps_dd = x_(d+1) and eps_(d,d+1) = x_d / 2, integrated over the three cubes.
+    level.stiffness.vmult(forces, u[1]);
+    const double lambda = 10. * .3 / (1.3 * .4), mu = 10. / 2.6;
+    const double squares[3] = {1. / 3. + 7. / 3. + 1. / 3., 1., 1. / 3. + 1. / 3. + 7. / 3.};
+    const double products   = 2. * ((.25 + .75 + .25) + (.25 + .25 + .75) + (.25 + .75 + .75));
+    const double sum        = squares[0] + squares[1] + squares[2];
+    const double quadratic  = (lambda + 2. * mu) * sum + lambda * products + mu * sum;
+    say(name + "energy of a quadratic displacement",
+        std::abs(forces * u[1] / quadratic - 1.) < 1e-12);
+  }
+
+  void
+  test_cantilever(const unsigned int degree, const double tolerance)
+  {
+    scene::Scene scene;
+    scene.mesh.source        = scene::MeshSource::bricks;
+    scene.mesh.upper_corner  = Point<3>(10, 1, 1);
+    scene.mesh.cells         = {{{10, 1, 1}}};
+    scene.materials          = {material("beam", 1000., 0.3)};
+    scene.supports           = {support("clamp", "x < 1e-9")};
+    scene.loads              = {load("tip", LoadType::traction, "x > 9.9", {{"0", "0", "-1"}})};
+    scene.reference.degree   = degree;
+    const auto        result = solve_hexahedra(scene, *mesh_of(scene), tolerance);
+    const double      known  = 4.004143; // from 6 million unknowns, to 5e-7
+    const double      error  = std::sqrt(known - result.energy);
+    const std::string name   = "cantilever, degree " + std::to_string(degree) + ": ";
+    say(name + "tolerance reached",
+        result.reached && result.estimated_error <= tolerance * std::sqrt(result.energy));
+    say(name + "estimate not below the error", result.estimated_error >= error);
+    say(name + "estimate not above twice the error", result.estimated_error <= 2. * error);
+    say(name + "extrapolated energy within half of what is missing",
+        std::abs(*result.extrapolated_energy - known) < .5 * (known - result.energy));
+  }
+
+  /** All supports and loads at once, against quadratic tetrahedra. */
+  void
+  test_everything()
+  {
+    // A box, so that there are no strong singularities.
+    scene::Scene scene = l_shape();
+    scene.mesh.blocks
+      = {{Point<3>(0, 0, 0), Point<3>(1, 1, 1)}, {Point<3>(1, 0, 0), Point<3>(2, 1, 1)}};
+    scene.mesh.block_regions             = {0, 1};
+    scene.materials                      = {material("soft", 10., 0.3), material("hard", 20., 0.2)};
+    scene.materials[1].regions           = {1};
+    scene.materials[0].density           = 1.;
+    scene.materials[1].density           = 2.;
+    scene.materials[1].thermal_expansion = 0.02;
+    scene.supports           = {support("wall", "x < 1e-9", "xyz", {{"0", "0.1*z", "0"}}),
+                                support("rail", "z < 1e-9 && x > 1 - 1e-9", "z")};
+    scene.loads              = {load("weight", LoadType::gravity, "", {{"0", "0", "-0.3"}}),
+                                load("end", LoadType::traction, "x > 2 - 1e-9", {{"0.2", "0.3*z", "0.5"}}),
+                                load("lid", LoadType::pressure, "z > 1 - 1e-9", {{"x", "", ""}}),
+                                load("wind", LoadType::body_force, "", {{"0.1*z", "0.4*x", "0"}}),
+                                load("heat", LoadType::temperature, "", {{"2 + y", "", ""}})};
+    scene.mesh.size          = "0.15";
+    scene.reference.degree   = 2;
+    scene.reference.max_dofs = 40000;
+    const auto mesh          = mesh_of(scene);
+    const auto hexahedra     = solve_hexahedra(scene, *mesh, 0.02);
+    const auto tetrahedra    = solve_scene(scene, mesh, 2);
+    double     largest = 0., difference = 0.;
+    for (unsigned int n = 0; n < tetrahedra.displacement->n_nodes(); ++n)
+      {
+        const auto &u  = tetrahedra.displacement->values[n];
+        const auto  at = hexahedra.displacement->locate(tetrahedra.displacement->node_position(n));
+        largest        = std::max(largest, u.norm());
+        difference
+          = std::max(difference, (u - hexahedra.displacement->value(at.cell, at.unit)).norm());
+      }
+    say("everything: energies agree to 0.5 %",
+        std::abs(hexahedra.energy / tetrahedra.energy - 1.) < 5e-3);
+    say("everything: displacements agree to 1 %", difference < 1e-2 * largest);
+    say("everything: no energy is known", !hexahedra.extrapolated_energy);
+  }
+
+  void
+  test_selections()
+  {
+    scene::Scene scene;
+    scene.mesh.upper_corner = Point<3>(2, 1, 1);
+    scene.materials         = {material("m", 1., 0.3)};
+    scene.supports          = {support("clamp", "x < 1e-9")};
+    scene.loads = {load("half", LoadType::pressure, "z > 1-1e-9 && x < 0.7 && y > 0.25", {{"1"}})};
+    core::Log    log;
+    unsigned int n_warnings = 0;
+    log.add_sink([&](core::LogLevel level, const std::string &) {
+      n_warnings += level == core::LogLevel::warning;
+    });
+    const auto grid = solve::make_hexahedral_grid(scene,
+                                                  *mesh_of([&] {
+                                                    auto fine      = scene;
+                                                    fine.mesh.size = "0.2";
+                                                    return fine;
+                                                  }()),
+                                                  log);
+    double     area = 0.;
+    for (unsigned int brick = 0; brick < grid.n_bricks(); ++brick)
+      if (grid.sides[brick][5] != solve::HexahedralGrid::none
+          && !grid.patches[grid.sides[brick][5]].selections.empty())
+        area += (grid.corner(brick, 7)[0] - grid.corner(brick, 0)[0])
+                * (grid.corner(brick, 7)[1] - grid.corner(brick, 0)[1]);
+    if (!first_rank)
+      return;
+    check("planes where a selection ends: area", area, .7 * .75, 1., 1e-6);
+    check("the tetrahedra's area differs: warned", n_warnings == 1);
+    const auto refuse = [&](const std::string &what) {
+      print_refusal(what, [&] {
+        auto fine      = scene;
+        fine.mesh.size = "0.2";
+        solve::make_hexahedral_grid(scene, mesh::make_mesh(fine, 0, log), log);
+      });
+    };
+    scene.loads[0].selector.where = "z > 1-1e-9 && x^2 + y^2 < 0.5";
+    refuse("a disc");
+    scene.loads[0].selector.where = "z > 1-1e-9";
+    scene.loads[0].type           = LoadType::nodal_force;
+    refuse("forces on nodes");
+  }
+} // namespace
+
+int
+main(int argc, char *argv[])
+{
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  first_rank = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  test_patch(2);
+  test_patch(3);
+  test_cantilever(2, 0.02);
+  test_cantilever(3, 0.01);
+  test_everything();
+  test_selections();
+}
