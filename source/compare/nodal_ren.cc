@@ -74,6 +74,28 @@ namespace tetradapt::compare
   }
 
   NodalRen
+  nodal_ren(const mesh::NodalField &u_h, const ReferenceSampling &sampling)
+  {
+    const MPI_Comm               communicator = sampling.communicator();
+    const mesh::HexahedralField *hexahedra    = sampling.hexahedra();
+    if (hexahedra == nullptr)
+      return nodal_ren(u_h, sampling.locator(), sampling.reference(), communicator);
+    const Slice         slice = own_slice(u_h.n_nodes(), communicator);
+    std::vector<double> distances(2 * std::size_t(u_h.n_nodes()), 0.);
+    double              farthest = 0.;
+    for (unsigned int node = slice.begin; node < slice.end; ++node)
+      {
+        const auto         at                = hexahedra->locate(u_h.node_position(node));
+        const Tensor<1, 3> u                 = hexahedra->value(at.cell, at.unit);
+        distances[2 * std::size_t(node)]     = (u_h.values[node] - u).norm();
+        distances[2 * std::size_t(node) + 1] = u.norm();
+        farthest                             = std::max(farthest, at.distance);
+      }
+    gather_slices(distances, u_h.n_nodes(), 2, communicator);
+    return summarise(u_h, distances, max_over_ranks(farthest, communicator));
+  }
+
+  NodalRen
   nodal_ren(const mesh::NodalField &u_h, const scene::TruthParameters &truth, MPI_Comm communicator)
   {
     const Slice         slice = own_slice(u_h.n_nodes(), communicator);

@@ -10,6 +10,7 @@
 #include "tetradapt/mesh/mesh_broadcast.h"
 #include "tetradapt/mesh/vtu_reader.h"
 #include "tetradapt/solve/energies.h"
+#include "tetradapt/solve/hexahedral_solution.h"
 #include "tetradapt/solve/static_solution.h"
 
 #include <chrono>
@@ -61,17 +62,44 @@ namespace tetradapt::compare
       const auto solution
         = solve::solve_static(scene, materials, mesh, scene.reference.degree, communicator, log);
       Reference reference;
-      reference.displacement = solution.displacement;
-      reference.energy       = solution.energy;
+      reference.displacement.tetrahedra = solution.displacement;
+      reference.energy                  = solution.energy;
       log.progress("reference: estimating its error");
       reference.estimated_error
-        = recovery_estimate(*reference.displacement, materials, communicator, &scene).global;
+        = recovery_estimate(*solution.displacement, materials, communicator, &scene).global;
       const Route route = scene.reference.route;
       reference.description
-        = describe(*reference.displacement,
+        = describe(*solution.displacement,
                    route == Route::refine   ? "refined from the initial mesh"
                    : route == Route::bricks ? "bricks"
                                             : "mesh of " + scene.reference.file);
+      return reference;
+    }
+
+    Reference
+    solve_hexahedra(const scene::Scene           &scene,
+                    const mechanics::MaterialMap &materials,
+                    const mesh::TetMesh          &initial_mesh,
+                    MPI_Comm                      communicator,
+                    const core::Log              &log)
+    {
+      const double tolerance = hexahedral_tolerance(scene);
+      const auto   solution
+        = solve::solve_on_hexahedra(scene, materials, initial_mesh, tolerance, communicator, log);
+      Reference reference;
+      reference.displacement.hexahedra = solution.displacement;
+      reference.energy                 = solution.energy;
+      reference.estimated_error        = solution.estimated_error;
+      reference.known_energy           = solution.extrapolated_energy;
+      std::ostringstream text;
+      text << 'Q' << solution.displacement->degree() << ", " << solution.displacement->n_cells()
+           << " hexahedra, " << solution.n_dofs << " unknowns, refined where its error is";
+      reference.description = text.str();
+      if (!solution.reached)
+        log.warning("Reference/Maximum unknowns stopped the refinement of the reference before its "
+                    "tolerance: the estimate of its relative energy error is "
+                    + number(solution.estimated_error / std::sqrt(solution.energy)) + " instead of "
+                    + number(tolerance) + ".");
       return reference;
     }
 
@@ -95,9 +123,19 @@ namespace tetradapt::compare
         {
           std::filesystem::create_directories(std::filesystem::path(file).parent_path());
           CachedReference cached;
-          cached.mesh            = reference.displacement->mesh();
-          cached.degree          = reference.displacement->degree();
-          cached.values          = reference.displacement->values;
+          cached.degree = reference.displacement.degree();
+          if (const auto &hexahedra = reference.displacement.hexahedra)
+            {
+              cached.planes    = hexahedra->planes();
+              cached.hexahedra = hexahedra->cells();
+              cached.values    = hexahedra->values();
+            }
+          else
+            {
+              cached.mesh   = reference.displacement.tetrahedra->mesh();
+              cached.values = reference.displacement.tetrahedra->values;
+            }
+          cached.known_energy    = reference.known_energy.value_or(0.);
           cached.energy          = reference.energy;
           cached.estimated_error = reference.estimated_error;
           cached.seconds         = reference.seconds;
@@ -132,6 +170,21 @@ namespace tetradapt::compare
       return field;
     }
 
+    /** The same on hexahedra. Collective. */
+    std::shared_ptr<const mesh::HexahedralField>
+    share(CachedReference cached, MPI_Comm communicator)
+    {
+      core::broadcast_bytes(&cached.degree, sizeof(cached.degree), communicator);
+      for (auto &planes : cached.planes)
+        core::broadcast(planes, communicator);
+      core::broadcast(cached.hexahedra, communicator);
+      core::broadcast(cached.values, communicator);
+      return std::make_shared<mesh::HexahedralField>(cached.degree,
+                                                     std::move(cached.planes),
+                                                     std::move(cached.hexahedra),
+                                                     std::move(cached.values));
+    }
+
     /** Takes the reference from the cache; false if it is not there. Collective. */
     bool
     load(const std::string &file,
@@ -141,7 +194,7 @@ namespace tetradapt::compare
          Reference         &reference)
     {
       CachedReference cached;
-      double          numbers[3] = {0., 0., 0.}; // whether it was found, then its figures
+      double          numbers[5] = {0., 0., 0., 0., 0.}; // whether it was found, then its figures
       core::on_first_rank(communicator, [&] {
         CacheResult result = read_reference_cache(file, key);
         if (!result.problem.empty())
@@ -153,6 +206,8 @@ namespace tetradapt::compare
         numbers[0] = 1.;
         numbers[1] = cached.energy;
         numbers[2] = cached.estimated_error;
+        numbers[3] = cached.known_energy;
+        numbers[4] = cached.hexahedra.empty() ? 0. : 1.;
       });
       core::broadcast_bytes(numbers, sizeof(numbers), communicator);
       if (numbers[0] == 0.)
@@ -162,8 +217,13 @@ namespace tetradapt::compare
       reference.energy          = numbers[1];
       reference.estimated_error = numbers[2];
       reference.from_cache      = true;
-      reference.displacement
-        = share(std::move(cached.mesh), cached.degree, std::move(cached.values), communicator);
+      if (numbers[3] != 0.)
+        reference.known_energy = numbers[3];
+      if (numbers[4] != 0.)
+        reference.displacement.hexahedra = share(std::move(cached), communicator);
+      else
+        reference.displacement.tetrahedra
+          = share(std::move(cached.mesh), cached.degree, std::move(cached.values), communicator);
       log.info("Reference: reused from " + file + " (" + number(seconds) + " s saved)");
       return true;
     }
@@ -187,7 +247,9 @@ namespace tetradapt::compare
           if (load(file, key, communicator, log, reference))
             return reference;
         }
-      reference         = solve_reference(scene, materials, initial_mesh, communicator, log);
+      reference         = scene.reference.type == scene::ReferenceParameters::Type::hexahedra
+                            ? solve_hexahedra(scene, materials, initial_mesh, communicator, log)
+                            : solve_reference(scene, materials, initial_mesh, communicator, log);
       reference.seconds = seconds_since(start);
       if (scene.reference.cache)
         core::on_first_rank(communicator, [&] { store(file, key, reference, log); });
@@ -213,13 +275,12 @@ namespace tetradapt::compare
         for (const int region : mesh.regions)
           materials.law(region); // throws for one without material
       });
-      Reference reference;
-      reference.displacement = share(std::move(mesh), degree, std::move(values), communicator);
-      reference.energy
-        = solve::compute_energies(*reference.displacement, materials, communicator).energy;
-      reference.estimated_error
-        = recovery_estimate(*reference.displacement, materials, communicator).global;
-      reference.description = describe(*reference.displacement, "read from " + file);
+      const auto field = share(std::move(mesh), degree, std::move(values), communicator);
+      Reference  reference;
+      reference.displacement.tetrahedra = field;
+      reference.energy          = solve::compute_energies(*field, materials, communicator).energy;
+      reference.estimated_error = recovery_estimate(*field, materials, communicator).global;
+      reference.description     = describe(*field, "read from " + file);
       return reference;
     }
 
@@ -258,7 +319,8 @@ namespace tetradapt::compare
                             ? reference_of_run(scene, materials, communicator, log)
                             : fine_reference(scene, materials, *initial_mesh, communicator, log);
     reference.seconds   = seconds_since(start);
-    compare_bodies(reference.displacement->mesh(), *initial_mesh, log);
+    if (reference.displacement.tetrahedra != nullptr)
+      compare_bodies(reference.displacement.tetrahedra->mesh(), *initial_mesh, log);
     return reference;
   }
 } // namespace tetradapt::compare

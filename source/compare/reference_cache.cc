@@ -15,7 +15,7 @@ namespace tetradapt::compare
   namespace
   {
     /** To be raised whenever the layout below changes. */
-    constexpr std::uint32_t format_version = 1;
+    constexpr std::uint32_t format_version = 2;
     constexpr std::uint32_t byte_order     = 0x01020304;
 
     struct Header
@@ -132,8 +132,18 @@ namespace tetradapt::compare
         }
       out.value(reference.degree);
       out.array(reference.values);
+      for (const auto &planes : reference.planes)
+        out.array(planes);
+      out.value(std::uint64_t(reference.hexahedra.size()));
+      for (const auto &cell : reference.hexahedra)
+        {
+          out.value(cell.lower);
+          out.value(cell.size);
+          out.value(cell.region);
+        }
       out.value(reference.energy);
       out.value(reference.estimated_error);
+      out.value(reference.known_energy);
       out.value(reference.seconds);
       out.text(reference.description);
       return out.bytes;
@@ -172,8 +182,19 @@ namespace tetradapt::compare
         }
       in.value(reference.degree);
       in.array(reference.values);
+      for (auto &planes : reference.planes)
+        in.array(planes);
+      in.value(n);
+      for (std::uint64_t i = 0; i < n; ++i)
+        {
+          reference.hexahedra.emplace_back();
+          in.value(reference.hexahedra.back().lower);
+          in.value(reference.hexahedra.back().size);
+          in.value(reference.hexahedra.back().region);
+        }
       in.value(reference.energy);
       in.value(reference.estimated_error);
+      in.value(reference.known_energy);
       in.value(reference.seconds);
       in.text(reference.description);
       if (!in.at_end())

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <sstream>
 
 // Set by the build for this room: they change with the packages.
@@ -21,7 +22,7 @@ namespace tetradapt::compare
   namespace
   {
     /** To be raised when the same scene gives another reference than before. */
-    constexpr unsigned int method_version = 1;
+    constexpr unsigned int method_version = 2;
 
     /** Names and values, one a line, with all digits; strings with their length. */
     class CanonicalText
@@ -98,6 +99,39 @@ namespace tetradapt::compare
         }
       text("solver", static_cast<int>(scene.solver.type));
       text("tolerance", scene.solver.tolerance);
+    }
+
+    /** Hexahedra follow the scene's body, up to a tolerance, and its selections, as far
+     * as these have the same areas. */
+    void
+    describe_hexahedra(CanonicalText       &text,
+                       const scene::Scene  &scene,
+                       const mesh::TetMesh &initial_mesh)
+    {
+      std::map<std::string, double> areas;
+      for (const auto &face : initial_mesh.faces)
+        for (const auto &name : initial_mesh.patches[face.patch].selections)
+          areas[name] += mesh::face_area_vector(initial_mesh, face).norm();
+      for (const auto &[name, area] : areas)
+        {
+          std::ostringstream rounded;
+          rounded << area;
+          text("selection", name);
+          text("area", rounded.str());
+        }
+      text("degree", scene.reference.degree);
+      text("tolerance", hexahedral_tolerance(scene));
+      text("unknowns", scene.reference.max_dofs);
+      text("iterations", scene.solver.max_iterations);
+      text("blocks", scene.mesh.source == scene::MeshSource::blocks);
+      text("lower", scene.mesh.lower_corner);
+      text("upper", scene.mesh.upper_corner);
+      for (const auto &block : scene.mesh.blocks)
+        {
+          text("from", block.first);
+          text("to", block.second);
+        }
+      text.list("regions", scene.mesh.block_regions);
     }
 
     void
@@ -188,14 +222,27 @@ namespace tetradapt::compare
     }
   } // namespace
 
+  double
+  hexahedral_tolerance(const scene::Scene &scene)
+  {
+    if (scene.reference.tolerance > 0.)
+      return scene.reference.tolerance;
+    return scene.adaptivity.tolerance > 0. ? .1 * scene.adaptivity.tolerance : 1e-3;
+  }
+
   std::string
   reference_key(const scene::Scene &scene, const mesh::TetMesh &initial_mesh)
   {
     CanonicalText text;
     text("method", method_version);
     text("deal.II", std::string(DEAL_II_PACKAGE_VERSION));
+    const bool hexahedra = scene.reference.type == scene::ReferenceParameters::Type::hexahedra;
+    text("hexahedra", hexahedra);
     describe_model(text, scene);
-    describe_mesh_parameters(text, scene);
+    if (hexahedra)
+      describe_hexahedra(text, scene, initial_mesh);
+    else
+      describe_mesh_parameters(text, scene);
     // Materials may name regions by what the initial mesh calls them.
     for (const auto &region : initial_mesh.region_names)
       {
@@ -204,6 +251,8 @@ namespace tetradapt::compare
       }
     Fingerprint hash;
     hash.add(text.str());
+    if (hexahedra)
+      return hash.hex();
     if (scene.reference.route == scene::ReferenceParameters::MeshRoute::refine)
       {
         add_mesh(hash, initial_mesh);

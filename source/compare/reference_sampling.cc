@@ -6,19 +6,41 @@
 #include "tetradapt/compare/tet_quadrature.h"
 #include "tetradapt/mesh/space_curve.h"
 
+#include <deal.II/base/quadrature_lib.h>
+
 #include <cmath>
 
 namespace tetradapt::compare
 {
+  ReferenceSampling::ReferenceSampling(const ReferenceField         &reference,
+                                       const mechanics::MaterialMap &materials,
+                                       MPI_Comm                      communicator)
+    : field(reference), material_map(materials), mpi_communicator(communicator)
+  {
+    std::vector<double> sums(3, 0.);
+    if (hexahedra() != nullptr)
+      visit_hexahedra(sums);
+    else
+      visit_tetrahedra(sums);
+    sum_over_ranks(sums, communicator);
+    for (unsigned int i = 0; i < 3; ++i)
+      norms[i] = std::sqrt(std::max(sums[i], 0.));
+  }
+
   ReferenceSampling::ReferenceSampling(std::shared_ptr<const mesh::NodalField> reference,
                                        const mechanics::MaterialMap           &materials,
                                        MPI_Comm                                communicator)
-    : field(std::move(reference)), material_map(materials), mpi_communicator(communicator)
+    : ReferenceSampling(ReferenceField{std::move(reference), nullptr}, materials, communicator)
   {
-    const mesh::TetMesh  &mesh    = field->mesh();
+  }
+
+  void
+  ReferenceSampling::visit_tetrahedra(std::vector<double> &sums)
+  {
+    const mesh::TetMesh  &mesh    = reference().mesh();
     const auto            box     = mesh::bounding_box(mesh);
     const unsigned int    n_cells = mesh.n_cells();
-    const Slice           slice   = own_slice(n_cells, communicator);
+    const Slice           slice   = own_slice(n_cells, mpi_communicator);
     std::vector<Point<3>> centroids(n_cells);
     for (unsigned int cell = 0; cell < n_cells; ++cell)
       centroids[cell] = position(mesh, cell, {{.25, .25, .25, .25}});
@@ -27,11 +49,10 @@ namespace tetradapt::compare
 
     // Exact for the gradient's square (degree 2) and the value's (degree 4).
     const TetQuadrature &for_gradients = tet_quadrature(2), &for_values = tet_quadrature(4);
-    std::vector<double>  sums(3, 0.);
-    const FieldEvaluator evaluator(*field);
+    const FieldEvaluator evaluator(reference());
     for (const unsigned int cell : cells)
       {
-        const auto  &law    = materials.law(mesh.regions[cell]);
+        const auto  &law    = material_map.law(mesh.regions[cell]);
         const double volume = mesh::cell_volume(mesh, cell);
         for (unsigned int q = 0; q < for_values.points.size(); ++q)
           sums[0] += volume * for_values.weights[q]
@@ -44,16 +65,36 @@ namespace tetradapt::compare
             sums[2] += weight * law.energy_density(dealii::symmetrize(G));
           }
       }
-    sum_over_ranks(sums, communicator);
-    for (unsigned int i = 0; i < 3; ++i)
-      norms[i] = std::sqrt(std::max(sums[i], 0.));
+  }
+
+  void
+  ReferenceSampling::visit_hexahedra(std::vector<double> &sums) const
+  {
+    // Gauss' rule with a point more than the degree in each direction is exact.
+    const mesh::HexahedralField &u     = *hexahedra();
+    const Slice                  slice = own_slice(u.n_cells(), mpi_communicator);
+    const dealii::QGauss<3>      gauss(u.degree() + 1);
+    for (unsigned int cell = slice.begin; cell < slice.end; ++cell)
+      {
+        const auto  &law    = material_map.law(u.cells()[cell].region);
+        const auto  &size   = u.cells()[cell].size;
+        const double volume = size[0] * size[1] * size[2];
+        for (unsigned int q = 0; q < gauss.size(); ++q)
+          {
+            const double weight   = volume * gauss.weight(q);
+            const auto [value, G] = u.evaluate(cell, gauss.point(q));
+            sums[0] += weight * value.norm_square();
+            sums[1] += weight * G.norm_square();
+            sums[2] += weight * law.energy_density(dealii::symmetrize(G));
+          }
+      }
   }
 
   const PointLocator &
   ReferenceSampling::locator() const
   {
     if (!point_locator)
-      point_locator = std::make_unique<PointLocator>(field->shared_mesh());
+      point_locator = std::make_unique<PointLocator>(reference().shared_mesh());
     return *point_locator;
   }
 } // namespace tetradapt::compare

@@ -34,7 +34,9 @@ namespace tetradapt::estimate
     if (!reference_difference)
       {
         require_reference();
-        reference_difference = compare::difference_to_reference(*u_h, locator(), *sampling);
+        reference_difference = sampling->hexahedra() != nullptr
+                                 ? compare::difference_to_hexahedra(*u_h, *sampling)
+                                 : compare::difference_to_reference(*u_h, locator(), *sampling);
       }
     return *reference_difference;
   }
@@ -75,8 +77,7 @@ namespace tetradapt::estimate
     if (!reference_ren)
       {
         require_reference();
-        reference_ren
-          = compare::nodal_ren(*u_h, sampling->locator(), sampling->reference(), communicator);
+        reference_ren = compare::nodal_ren(*u_h, *sampling);
       }
     return *reference_ren;
   }

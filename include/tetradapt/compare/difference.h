@@ -30,11 +30,22 @@ namespace tetradapt::compare
    * indicator cell_energy such cells are integrated on their own, by the same
    * rule and with the reference found by its locator; this part does not enter
    * the global norms. Collective.
+   *
+   * @p sampling is of a reference on tetrahedra; see difference_to_hexahedra().
    */
   Difference
   difference_to_reference(const mesh::NodalField  &u_h,
                           const PointLocator      &locator, ///< of u_h's mesh
                           const ReferenceSampling &sampling);
+
+  /**
+   * Difference to a solution on hexahedra. Integrals are taken over the cells of u_h,
+   * cut into eight until they are not much larger than the hexahedra that they touch,
+   * by a rule of degree 2; a whole cell of degree 2 by one of degree 5. The material is
+   * that of u_h's cell. Collective.
+   */
+  Difference
+  difference_to_hexahedra(const mesh::NodalField &u_h, const ReferenceSampling &sampling);
 
   /** The same for one comparison only. */
   Difference
@@ -87,6 +98,10 @@ namespace tetradapt::compare
             const PointLocator     &reference_locator,
             const mesh::NodalField &reference,
             MPI_Comm                communicator);
+
+  /** The same with a reference of either kind. Collective. */
+  NodalRen
+  nodal_ren(const mesh::NodalField &u_h, const ReferenceSampling &sampling);
 
   /** The same with the reference positions from an exact displacement. Collective.
    * @throws InputError as difference_to_exact(). */

@@ -2,24 +2,31 @@
 #ifndef tetradapt_compare_reference_h
 #define tetradapt_compare_reference_h
 
+#include "tetradapt/compare/reference_sampling.h"
 #include "tetradapt/core/log.h"
 #include "tetradapt/mechanics/material_map.h"
-#include "tetradapt/mesh/nodal_field.h"
 #include "tetradapt/scene/scene.h"
 
 #include <mpi.h>
+
+#include <optional>
 
 namespace tetradapt::compare
 {
   /** A fine solution, and how wrong it is itself. Every rank holds all of it. */
   struct Reference
   {
-    std::shared_ptr<mesh::NodalField> displacement;
-    double                            energy = 0.; ///< a(u_ref,u_ref)
-    double estimated_error = 0.; ///< of the reference, energy norm, absolute, recovery estimator
-    bool   from_cache      = false;
-    std::string description;  ///< for the log: where it came from, its size
-    double      seconds = 0.; ///< what it took to obtain
+    ReferenceField displacement;
+    double         energy = 0.; ///< a(u_ref,u_ref)
+    /** Of the reference itself, energy norm, absolute: by recovery on tetrahedra, by what
+     * refinement gained on hexahedra. */
+    double estimated_error = 0.;
+    /** a(u,u) of the solution itself, extrapolated over the meshes of hexahedra: a known
+     * energy, whose error is a part of the square of estimated_error. */
+    std::optional<double> known_energy;
+    bool                  from_cache = false;
+    std::string           description;  ///< for the log: where it came from, its size
+    double                seconds = 0.; ///< what it took to obtain
   };
 
   /**
@@ -27,7 +34,7 @@ namespace tetradapt::compare
    * scene's reference. Collective.
    *
    * @param initial_mesh the scene's initial mesh with selections made; the route
-   *        "refine" refines it.
+   *        "refine" refines it; on hexahedra supports and loads act where they act on it.
    */
   Reference
   make_reference(const scene::Scene                  &scene,

@@ -2,6 +2,7 @@
 #ifndef tetradapt_compare_reference_cache_h
 #define tetradapt_compare_reference_cache_h
 
+#include "tetradapt/mesh/hexahedral_field.h"
 #include "tetradapt/mesh/nodal_field.h"
 
 #include <memory>
@@ -12,12 +13,16 @@ namespace tetradapt::compare
   /** A reference as it is kept on disk. */
   struct CachedReference
   {
-    mesh::TetMesh                     mesh;
+    mesh::TetMesh                     mesh; ///< empty for a reference on hexahedra
     unsigned int                      degree = 1;
-    std::vector<dealii::Tensor<1, 3>> values; ///< one a node of a NodalField of this degree
-    double                            energy = 0., estimated_error = 0.;
-    double                            seconds = 0.; ///< what it took to compute
-    std::string                       description;  ///< of mesh and size, for the log
+    std::vector<dealii::Tensor<1, 3>> values; ///< one a node of a field of this degree
+    /** Of a mesh::HexahedralField: planes and cells. */
+    std::array<std::vector<double>, 3>       planes;
+    std::vector<mesh::HexahedralField::Cell> hexahedra;
+    double                                   energy = 0., estimated_error = 0.;
+    double                                   known_energy = 0.; ///< 0: none
+    double                                   seconds      = 0.; ///< what it took to compute
+    std::string                              description;       ///< of mesh and size, for the log
   };
 
   /** What read_reference_cache() found. */

@@ -4,11 +4,31 @@
 
 #include "tetradapt/compare/point_locator.h"
 #include "tetradapt/mechanics/material_map.h"
+#include "tetradapt/mesh/hexahedral_field.h"
 
 #include <mpi.h>
 
 namespace tetradapt::compare
 {
+  /** A displacement on tetrahedra or on hexahedra: one of the two pointers is set. */
+  struct ReferenceField
+  {
+    std::shared_ptr<const mesh::NodalField>      tetrahedra;
+    std::shared_ptr<const mesh::HexahedralField> hexahedra;
+
+    unsigned int
+    degree() const
+    {
+      return hexahedra != nullptr ? hexahedra->degree() : tetrahedra->degree();
+    }
+    /** Number of tetrahedra; hexahedra count for six. */
+    unsigned long
+    n_tetrahedra() const
+    {
+      return hexahedra != nullptr ? 6ul * hexahedra->n_cells() : tetrahedra->mesh().n_cells();
+    }
+  };
+
   /**
    * What a comparison needs of the reference and what does not change from cycle
    * to cycle: its norms, the order in which its cells are visited (along a curve
@@ -20,14 +40,25 @@ namespace tetradapt::compare
   {
   public:
     /** Collective. @p materials must outlive this object. */
+    ReferenceSampling(const ReferenceField         &reference,
+                      const mechanics::MaterialMap &materials,
+                      MPI_Comm                      communicator);
+    /** For one on tetrahedra. */
     ReferenceSampling(std::shared_ptr<const mesh::NodalField> reference,
                       const mechanics::MaterialMap           &materials,
                       MPI_Comm                                communicator);
 
+    /** The reference on hexahedra; null for one on tetrahedra. */
+    const mesh::HexahedralField *
+    hexahedra() const
+    {
+      return field.hexahedra.get();
+    }
+    /** The reference on tetrahedra, if it is one. */
     const mesh::NodalField &
     reference() const
     {
-      return *field;
+      return *field.tetrahedra;
     }
     const mechanics::MaterialMap &
     materials() const
@@ -40,11 +71,11 @@ namespace tetradapt::compare
       return mpi_communicator;
     }
 
-    /** The locator of the reference's mesh. Not collective. */
+    /** The locator of the reference's mesh of tetrahedra. Not collective. */
     const PointLocator &
     locator() const;
 
-    /** The reference's cells that this rank visits, in this order. */
+    /** The reference's tetrahedra that this rank visits, in this order. */
     const std::vector<unsigned int> &
     own_cells() const
     {
@@ -69,12 +100,18 @@ namespace tetradapt::compare
     }
 
   private:
-    std::shared_ptr<const mesh::NodalField> field;
-    const mechanics::MaterialMap           &material_map;
-    MPI_Comm                                mpi_communicator;
-    std::vector<unsigned int>               cells;
-    double                                  norms[3] = {0., 0., 0.};
-    mutable std::unique_ptr<PointLocator>   point_locator;
+    /** Each adds this rank's share of the norms' squares. */
+    void
+    visit_tetrahedra(std::vector<double> &sums);
+    void
+    visit_hexahedra(std::vector<double> &sums) const;
+
+    ReferenceField                        field;
+    const mechanics::MaterialMap         &material_map;
+    MPI_Comm                              mpi_communicator;
+    std::vector<unsigned int>             cells;
+    double                                norms[3] = {0., 0., 0.};
+    mutable std::unique_ptr<PointLocator> point_locator;
   };
 } // namespace tetradapt::compare
 
