@@ -31,9 +31,10 @@ namespace tetradapt::estimate
                   const double       n3,
                   const unsigned int degree)
     {
-      // Strong singularities give N^-0.2, smooth solutions N^(-2p/3); twice that is met on
-      // meshes too coarse for the rates of theory.
-      double slow = 0.1, fast = 4. / 3. * degree;
+      // Uniform meshes give N^(-2 lambda / 3) at singularities like r^lambda, so a third at a
+      // crack; smooth solutions give N^(-2p/3), and twice that is met on meshes too coarse
+      // for the rates of theory.
+      double slow = 0.25, fast = 4. / 3. * degree;
       if (!(ratio > ratio_of_changes(slow, n1, n2, n3))
           || !(ratio < ratio_of_changes(fast, n1, n2, n3)))
         return std::nullopt;

@@ -79,7 +79,7 @@ namespace tetradapt::estimate
    * superconvergent patch recovery, scaled to the global value.
    *
    * The estimate is missing, with the indicators of the patch recovery, before the third
-   * cycle and where the three energies do not converge at a rate between 0.1 and 4p/3.
+   * cycle and where the three energies do not converge at a rate between 0.25 and 4p/3.
    * Throws core::InputError if both loads and prescribed displacements act.
    */
   class Richardson : public Estimator
