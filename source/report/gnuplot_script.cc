@@ -85,8 +85,8 @@ namespace tetradapt::report
                  const std::string &y_label,
                  const std::size_t  n_names)
     {
-      // Each name takes 23 points.
-      const std::size_t height = std::max<std::size_t>(540, 100 + 23 * n_names);
+      // Each name takes 23 points; the title, ticks and the label of the axis the rest.
+      const std::size_t height = std::max<std::size_t>(540, 170 + 23 * n_names);
       return "# gnuplot -d this.gp > this.svg\n"
              "set terminal svg size 900,"
              + std::to_string(height)
@@ -98,7 +98,7 @@ namespace tetradapt::report
                "set border 3 lc rgb '#606060'\n"
                "set tics nomirror textcolor rgb '#202020'\n"
                "set grid lc rgb '#e0e0e0' lt 1 lw 1\n"
-               "set key outside right top vertical Left reverse samplen 2.5 noenhanced\n"
+               "set key outside right top vertical maxcols 1 Left reverse samplen 2.5 noenhanced\n"
                "set xlabel "
              + gnuplot_text(x_label) + " enhanced\nset ylabel " + gnuplot_text(y_label)
              + " enhanced\n";
