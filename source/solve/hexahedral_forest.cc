@@ -218,8 +218,12 @@ namespace tetradapt::solve
     cell_list.clear();
     for (const auto &[id, cell] : order)
       {
+        // The number in the cell's id is that of p4est's tree, which is another one.
+        Data::Triangulation::cell_iterator ancestor = cell;
+        while (ancestor->level() > 0)
+          ancestor = ancestor->parent();
         HexahedralCell own;
-        own.brick = data->bricks[id.get_coarse_cell_id()];
+        own.brick = data->bricks[ancestor->index()];
         own.lower = cell->vertex(0);
         own.size  = cell->vertex(7) - cell->vertex(0);
         own.level = cell->level();

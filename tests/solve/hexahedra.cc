@@ -201,6 +201,40 @@ namespace
     say("everything: no energy is known", !hexahedra.extrapolated_energy);
   }
 
+  /** Cells know their bricks, and with these the sides of the body. */
+  void
+  test_bricks()
+  {
+    scene::Scene scene = l_shape();
+    for (auto &block : scene.mesh.blocks)
+      block.first[1] *= .5, block.second[1] *= .5;
+    scene.supports               = {support("back", "x < 1e-9")};
+    const auto              grid = solve::make_hexahedral_grid(scene, *mesh_of(scene), core::Log());
+    solve::HexahedralForest forest(grid, MPI_COMM_WORLD);
+    forest.refine(std::vector<bool>(forest.cells().size(), true));
+    bool   inside = true;
+    double area = 0., back = 0.;
+    for (const auto &cell : forest.cells())
+      {
+        for (unsigned int d = 0; d < 3; ++d)
+          inside = inside && cell.lower[d] > grid.corner(cell.brick, 0)[d] - 1e-12
+                   && cell.lower[d] + cell.size[d] < grid.corner(cell.brick, 7)[d] + 1e-12;
+        for (unsigned int side = 0; side < 6; ++side)
+          if ((cell.outer >> side & 1) != 0)
+            {
+              const double part = cell.size[(side / 2 + 1) % 3] * cell.size[(side / 2 + 2) % 3];
+              area += part;
+              if (!grid.patches.at(grid.sides[cell.brick].at(side)).selections.empty())
+                back += part;
+            }
+      }
+    say("cells lie in their bricks", inside && grid.n_bricks() == 16);
+    area = dealii::Utilities::MPI::sum(area, MPI_COMM_WORLD);
+    back = dealii::Utilities::MPI::sum(back, MPI_COMM_WORLD);
+    say("area of the body and of a selection",
+        std::abs(area - 10.) < 1e-12 && std::abs(back - 1.) < 1e-12);
+  }
+
   void
   test_selections()
   {
@@ -256,5 +290,6 @@ main(int argc, char *argv[])
   test_cantilever(2, 0.02);
   test_cantilever(3, 0.01);
   test_everything();
+  test_bricks();
   test_selections();
 }
