@@ -94,13 +94,17 @@ namespace tetradapt::estimate
   {
     if (densities.constant)
       return false;
+    std::array<Point<3>, n_corners> x;
+    for (unsigned int i = 0; i < n_corners; ++i)
+      x[i] = position(mesh, cell, corners[i]);
     double longest = 0.;
     for (unsigned int i = 0; i < n_corners; ++i)
       for (unsigned int j = 0; j < i; ++j)
-        longest = std::max(
-          longest,
-          position(mesh, cell, corners[i]).distance_square(position(mesh, cell, corners[j])));
-    return longest > densities.largest_part * densities.largest_part;
+        longest = std::max(longest, x[i].distance_square(x[j]));
+    if (longest <= densities.largest_part * densities.largest_part)
+      return false;
+    // No part is farther from a corner than its longest edge.
+    return x[0].distance(densities.center) <= std::sqrt(longest) + densities.radius;
   }
 
   template <unsigned int n_corners>
@@ -182,7 +186,9 @@ namespace tetradapt::estimate
     integrate(cell, corners, measure, rim, others);
     bool       found   = !is_flat(values, Values{}) || !is_flat(others, Values{});
     const bool is_same = is_flat(values, values[0]) && is_flat(others, values[0]);
-    if (is_same && is_large(cell, corners))
+    // Also where values differ: few points in a patch say little of its integral, which
+    // sets the tolerance for all.
+    if (is_large(cell, corners))
       {
         found = false;
         for_children(corners, [&](const Corners &child) {

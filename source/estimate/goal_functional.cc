@@ -98,6 +98,8 @@ namespace tetradapt::estimate
       {
         Densities densities;
         densities.largest_part = 0.5 * goal.radius;
+        densities.radius       = goal.radius;
+        densities.center       = goal.point;
         densities.evaluate     = [this](const Point<3> &x, double *value) {
           const double s = 1. - x.distance_square(goal.point) / (goal.radius * goal.radius);
           value[0]       = s > 0. ? s * s : 0.;

@@ -7,6 +7,7 @@
 #include <mpi.h>
 
 #include <functional>
+#include <limits>
 
 namespace tetradapt::estimate
 {
@@ -21,6 +22,9 @@ namespace tetradapt::estimate
     std::function<void(const Point<3> &, double *)> evaluate;
     bool                                            constant = false;
     double largest_part = 0.; ///< longest edge of a part in which they do not vary
+    /** They are zero outside of the ball around center; infinity: nothing is known. */
+    double   radius = std::numeric_limits<double>::infinity();
+    Point<3> center;
   };
 
   /**
