@@ -184,8 +184,7 @@ namespace tetradapt::estimate
   {
     integrate(cell, corners, measure, low, values);
     integrate(cell, corners, measure, rim, others);
-    bool       found   = !is_flat(values, Values{}) || !is_flat(others, Values{});
-    const bool is_same = is_flat(values, values[0]) && is_flat(others, values[0]);
+    bool found = !is_flat(values, Values{}) || !is_flat(others, Values{});
     // Also where values differ: few points in a patch say little of its integral, which
     // sets the tolerance for all.
     if (is_large(cell, corners))
