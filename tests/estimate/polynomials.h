@@ -40,6 +40,21 @@ namespace polynomials
     return scene;
   }
 
+  /** Free thermal expansion for the temperature x, without stress: u = alpha (x^2 - y^2 - z^2,
+   * 2 x y, 2 x z) / 2, of degree 2; alpha = 0.2. */
+  inline scene::Scene
+  make_heated_scene()
+  {
+    scene::Scene scene;
+    scene.materials                      = {material("all", 1., 0.25)};
+    scene.materials[0].thermal_expansion = 0.2;
+    scene.supports = {support("end", "x < 1e-9", "xyz", {{"-0.1*(y^2 + z^2)", "0", "0"}})};
+    scene.loads    = {load("heat", scene::LoadType::temperature, "", {{"x", "0", "0"}})};
+    scene.truth.displacement = {{"0.1*(x^2 - y^2 - z^2)", "0.2*x*y", "0.2*x*z"}};
+    scene.solver.tolerance   = 1e-11;
+    return scene;
+  }
+
   /** A scene solved on the cube, with what estimators ask for. */
   struct Solved
   {
