@@ -58,6 +58,22 @@ namespace tetradapt::solve
       return grid;
     }
 
+    /** The planes, and others between them at distances of about @p h. */
+    std::array<std::vector<double>, 3>
+    divided_planes(const HexahedralGrid &grid, const double h)
+    {
+      std::array<std::vector<double>, 3> planes;
+      for (unsigned int d = 0; d < 3; ++d)
+        for (unsigned int i = 0; i + 1 < grid.planes[d].size(); ++i)
+          {
+            const double       from = grid.planes[d][i], to = grid.planes[d][i + 1];
+            const unsigned int n = std::max(1l, std::lround((to - from) / h));
+            for (unsigned int k = i == 0 ? 0 : 1; k <= n; ++k)
+              planes[d].push_back(k == 0 ? from : k == n ? to : (from * (n - k) + to * k) / n);
+          }
+      return planes;
+    }
+
     /** Cuts intervals so that bricks are about cubic, and not too many. */
     HexahedralGrid
     subdivided(const HexahedralGrid &grid)
@@ -72,17 +88,16 @@ namespace tetradapt::solve
             const auto size = grid.corner(brick, 7) - grid.corner(brick, 0);
             volume += size[0] * size[1] * size[2];
           }
-      const double                       h = std::max(shortest, std::cbrt(volume / most_bricks));
-      std::array<std::vector<double>, 3> planes;
-      for (unsigned int d = 0; d < 3; ++d)
-        for (unsigned int i = 0; i + 1 < grid.planes[d].size(); ++i)
-          {
-            const double       from = grid.planes[d][i], to = grid.planes[d][i + 1];
-            const unsigned int n = std::max(1l, std::lround((to - from) / h));
-            for (unsigned int k = i == 0 ? 0 : 1; k <= n; ++k)
-              planes[d].push_back(k == 0 ? from : k == n ? to : (from * (n - k) + to * k) / n);
-          }
-      return with_planes(grid, planes);
+      // Flat bodies would have more bricks than cubes of that volume tell: then larger ones.
+      for (double h = std::max(shortest, std::cbrt(volume / most_bricks));; h *= 1.25)
+        {
+          const auto   planes = divided_planes(grid, h);
+          const double bricks
+            = (planes[0].size() - 1.) * (planes[1].size() - 1.) * (planes[2].size() - 1.);
+          const bool coarsest = planes == grid.planes;
+          if (bricks <= 4. * most_bricks || coarsest || h > extent(grid))
+            return with_planes(grid, planes);
+        }
     }
   } // namespace
 

@@ -106,7 +106,8 @@ namespace tetradapt::solve
     }
 
     /** Conjugate gradients for what is missing to @p x, until the estimated error in the
-     * energy norm is below @p error. */
+     * energy norm is below @p error, or, if that is zero, below first_residue of what the
+     * iteration has found. */
     unsigned int
     iterate(const HexahedralLevel &level,
             const Preconditioner  &preconditioner,
@@ -123,8 +124,8 @@ namespace tetradapt::solve
       residual -= product;
       level.supports.set_zero(residual);
       EnergyErrorEstimate estimate;
-      double              energy = 0.;
-      unsigned int        n      = 0;
+      double              energy = 0., found = 0.;
+      unsigned int        n = 0;
       for (double norm = residual.l2_norm(); norm > 1e-13 * scale;)
         {
           if (n == max_iterations || !std::isfinite(norm))
@@ -148,7 +149,9 @@ namespace tetradapt::solve
           estimate.add(alpha * energy);
           ++n;
           const auto left = estimate.squared_error();
-          if (left && *left <= error * error)
+          found += alpha * energy;
+          const double allowed = error > 0. ? error * error : first_residue * first_residue * found;
+          if (left && *left <= allowed)
             break;
           log.progress("reference: conjugate gradients, iteration " + std::to_string(n));
         }
@@ -263,6 +266,10 @@ namespace tetradapt::solve
         const HexahedralLevel fine(scene, materials, forest, scene.reference.degree);
         const HexahedralLevel coarse(scene, materials, forest, 1);
         solution.n_dofs = 3 * fine.space.n_nodes;
+        if (solution.levels.empty() && solution.n_dofs > scene.reference.max_dofs)
+          throw core::InputError(
+            "Reference/Maximum unknowns: the coarsest hexahedra of this body have "
+            + std::to_string(solution.n_dofs) + " unknowns. Allow more, or use Type = fine mesh.");
         log.progress("reference: " + std::to_string(solution.n_dofs) + " unknowns on hexahedra");
         const Vector forces         = nodal_forces(scene, mesh, materials, forest, fine.space);
         Vector       x              = first_iterate(fine, solution.displacement.get());
