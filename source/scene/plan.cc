@@ -202,7 +202,7 @@ namespace tetradapt::scene
         absent);
     add(reference_cache,
         "reference cache",
-        solved && reference.cache,
+        (solved || hexahedra) && reference.cache,
         "Reference/Cache = yes",
         solved ? "Reference/Cache = no" : absent);
     add(reference_error,

@@ -215,7 +215,9 @@ end
       = go("by_run", coarse + " set Type = earlier run\n set File = fine/cycle_000.vtu\nend\n");
     check("  there is an error", bricks.last("relative_energy_error") > 0.1);
     check("  bricks and file: the same figures", bricks.distance(file) < 1e-6);
-    check("  bricks and run: the same figures", bricks.distance(run) < 1e-6);
+    // The loads of an earlier run are not known, so that the recovery of its error does
+    // without them.
+    check("  bricks and run: the same figures", bricks.distance(run, "reference_error") < 1e-6);
     check("  the reference's own error is told",
           bricks.last("reference_error") > 0.01
             && bricks.last("reference_error") < bricks.last("relative_energy_error")

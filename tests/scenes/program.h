@@ -139,16 +139,17 @@ namespace program
         result = result && value(column, row) < value(column, row - 1);
       return result;
     }
-    /** Largest relative difference of the columns that do not tell the time. */
+    /** Largest relative difference of the columns that do not tell the time; one may be
+     * left @p out. */
     double
-    distance(const Table &other) const
+    distance(const Table &other, const std::string &out = "") const
     {
       if (n_rows() == 0 || n_rows() != other.n_rows())
         return 1e300;
       double largest = 0.;
       for (const auto &column : columns)
         if (column.first.find("seconds") != 0 && column.first.find("iterations") != 0
-            && column.first != "algebraic_error")
+            && column.first != "algebraic_error" && column.first != out)
           for (unsigned int row = 0; row < n_rows(); ++row)
             {
               const double a = column.second[row], b = other.value(column.first, row);

@@ -15,7 +15,9 @@ namespace
     const fs::path folder = fresh(name);
     const auto     result = run("--quiet --output-directory " + name + " --set Output/VTU=no "
                             + overrides + " " + scene("verification/" + name + ".prm"));
-    std::cout << name << ": exit code " << result.code << '\n' << result.err;
+    // Warnings tell sizes of meshes, which rounding may change.
+    std::cout << name << ": exit code " << result.code << '\n'
+              << (result.code == 0 ? "" : result.err);
     return Table(folder);
   }
 
