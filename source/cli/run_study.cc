@@ -83,6 +83,8 @@ namespace tetradapt::cli
           unsigned int pattern = 0;
           for (std::size_t v = 1; v < runs[i].cases.size(); ++v)
             pattern = pattern * (1 + runs.back().cases[v]) + runs[i].cases[v];
+          // Two colours that are the same get different lines.
+          pattern += runs[i].cases.front() / report::n_plot_colours;
           report::PlottedRun run;
           run.label   = runs[i].label;
           run.degree  = runs[i].scene.degree;

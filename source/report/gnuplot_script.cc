@@ -9,10 +9,10 @@ namespace tetradapt::report
 {
   namespace
   {
-    /** M. Okabe and K. Ito's colours, which colour-blind eyes tell apart, but for their
-     * yellow, which white paper hides. */
-    const std::array<const char *, 7> colours{
-      {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"}};
+    /** M. Okabe and K. Ito's colours, which colour-blind eyes tell apart, but with grey
+     * for their yellow, which white paper hides. */
+    const std::array<const char *, n_plot_colours> colours{
+      {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#909090"}};
     /** Lines: solid, dashes, dots, dashes and dots. */
     const std::array<const char *, 4> dashes{{"1", "(10,5)", "(2,4)", "(10,4,2,4)"}};
     /** Points: full circle, square, triangle, lozenge; then the same hollow. */

@@ -120,7 +120,7 @@ namespace tetradapt::report
              }))
         return;
       const unsigned int number = plot.curves.size();
-      plot.curves.push_back({label, points, number, pattern + number / 7, false});
+      plot.curves.push_back({label, points, number, pattern + number / n_plot_colours, false});
     }
 
     std::string

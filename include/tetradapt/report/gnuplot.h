@@ -12,6 +12,9 @@
 /** Pictures by gnuplot, which is a program of its own and may be missing. */
 namespace tetradapt::report
 {
+  /** Colours that PlotCurve::colour can tell apart; a larger number begins anew. */
+  constexpr unsigned int n_plot_colours = 8;
+
   /** A curve of a LinePlot. */
   struct PlotCurve
   {
