@@ -93,16 +93,4 @@ namespace tetradapt::mechanics
       }
     source.zero_out_ghost_values();
   }
-
-  void
-  BlockMatrix::diagonal(Vector &values) const
-  {
-    values.reinit(layout);
-    for (unsigned int row = 0; row < n_rows(); ++row)
-      {
-        const Block &b = blocks[find(row, row)];
-        for (unsigned int c = 0; c < 3; ++c)
-          values.local_element(3 * row + c) = b[4 * c];
-      }
-  }
 } // namespace tetradapt::mechanics

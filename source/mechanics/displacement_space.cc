@@ -2,71 +2,121 @@
 #include "tetradapt/mechanics/displacement_space.h"
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/dofs/dof_handler.h>
-#include <deal.II/dofs/dof_tools.h>
-#include <deal.II/fe/fe_simplex_p.h>
+
+#include <algorithm>
 
 namespace tetradapt::mechanics
 {
+  using dealii::IndexSet;
+  using dealii::types::global_dof_index;
+
   namespace
   {
-    using dealii::IndexSet;
-    using dealii::types::global_dof_index;
-
-    /** The unknowns of a set of nodes, three each. */
-    IndexSet
-    triple(const IndexSet &nodes)
-    {
-      IndexSet unknowns(3 * nodes.size());
-      for (auto interval = nodes.begin_intervals(); interval != nodes.end_intervals(); ++interval)
-        unknowns.add_range(3 * *interval->begin(), 3 * (interval->last() + 1));
-      unknowns.compress();
-      return unknowns;
-    }
-  } // namespace
+    constexpr unsigned int invalid = dealii::numbers::invalid_unsigned_int;
+  }
 
   DisplacementSpace::DisplacementSpace(const MeshPartition   &partition,
                                        unsigned int           degree,
                                        const mesh::EdgeTable *edges)
     : mesh(partition.mesh()), edges(edges), polynomial_degree(degree),
-      mpi_communicator(partition.communicator())
+      mpi_communicator(partition.communicator()),
+      local_nodes(mesh.n_points() + (degree == 2 ? edges->edges.size() : 0), invalid)
   {
-    dealii::DoFHandler<3> dof_handler(partition.triangulation());
-    dof_handler.distribute_dofs(dealii::FE_SimplexP<3>(degree));
+    std::vector<global_dof_index> numbers;
+    const auto                    firsts = number(partition, numbers);
+    const unsigned int            rank = dealii::Utilities::MPI::this_mpi_process(mpi_communicator);
+    const std::pair<global_dof_index, global_dof_index> range(firsts[rank], firsts[rank + 1]);
+    const auto                                          is_owned = [&](unsigned int field_node) {
+      return numbers[field_node] >= range.first && numbers[field_node] < range.second;
+    };
 
-    const IndexSet &owned = dof_handler.locally_owned_dofs();
-    IndexSet        relevant;
-    dealii::DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
-    partitioner = std::make_shared<dealii::Utilities::MPI::Partitioner>(triple(owned),
-                                                                        triple(relevant),
-                                                                        mpi_communicator);
-    n_owned     = owned.n_elements();
-    field_nodes.assign(n_owned + partitioner->n_ghost_indices() / 3,
-                       dealii::numbers::invalid_unsigned_int);
-    local_nodes.assign(mesh.n_points() + (degree == 2 ? edges->edges.size() : 0),
-                       dealii::numbers::invalid_unsigned_int);
-
-    const unsigned int            n_per_cell = n_nodes_per_cell();
-    std::vector<global_dof_index> dofs(n_per_cell);
-    std::vector<unsigned int>     local(n_per_cell);
-    cells.reserve(partition.triangulation().n_active_cells());
-    for (const auto &cell : dof_handler.active_cell_iterators())
-      if (!cell->is_artificial())
+    n_owned = range.second - range.first;
+    field_nodes.resize(n_owned);
+    for (unsigned int node = 0; node < numbers.size(); ++node)
+      if (is_owned(node))
         {
-          const unsigned int mesh_cell = partition.mesh_cell(cell);
-          cell->get_dof_indices(dofs);
-          bool touches_owned = false;
-          for (unsigned int i = 0; i < n_per_cell; ++i)
-            {
-              const unsigned int l = partitioner->global_to_local(3 * dofs[i]) / 3;
-              const unsigned int f = cell_node(mesh_cell, i);
-              field_nodes[l]       = f;
-              local_nodes[f]       = l;
-              touches_owned |= l < n_owned;
-            }
-          if (touches_owned)
-            cells.push_back(mesh_cell);
+          local_nodes[node]              = numbers[node] - range.first;
+          field_nodes[local_nodes[node]] = node;
         }
+    if (partition.n_ranks() == 1)
+      cells = partition.order();
+    else
+      for (const unsigned int cell : partition.order())
+        for (unsigned int i = 0; i < n_nodes_per_cell(); ++i)
+          if (is_owned(cell_node(cell, i)))
+            {
+              cells.push_back(cell);
+              break;
+            }
+    add_ghosts(numbers, range);
+
+    IndexSet owned(3 * firsts.back()), ghosts(3 * firsts.back());
+    owned.add_range(3 * range.first, 3 * range.second);
+    for (unsigned int l = n_owned; l < field_nodes.size(); ++l)
+      ghosts.add_range(3 * numbers[field_nodes[l]], 3 * (numbers[field_nodes[l]] + 1));
+    ghosts.compress();
+    partitioner
+      = std::make_shared<dealii::Utilities::MPI::Partitioner>(owned, ghosts, mpi_communicator);
+  }
+
+  std::vector<global_dof_index>
+  DisplacementSpace::number(const MeshPartition           &partition,
+                            std::vector<global_dof_index> &numbers) const
+  {
+    const unsigned int n_per_cell = n_nodes_per_cell(), n_ranks = partition.n_ranks();
+    const auto         for_each = [&](const auto &action) {
+      for (const unsigned int cell : partition.order())
+        for (unsigned int i = 0; i < n_per_cell; ++i)
+          action(cell_node(cell, i), partition.owner(cell));
+    };
+    std::vector<unsigned int> owners;
+    if (n_ranks > 1)
+      {
+        owners.assign(n_field_nodes(), invalid);
+        for_each([&](unsigned int node, unsigned int rank) {
+          owners[node] = std::min(owners[node], rank);
+        });
+      }
+    std::vector<global_dof_index> firsts(n_ranks + 1, 0);
+    for (const unsigned int owner : owners)
+      if (owner != invalid) // points without cells have none
+        ++firsts[owner + 1];
+    for (unsigned int rank = 0; rank < n_ranks; ++rank)
+      firsts[rank + 1] += firsts[rank];
+
+    auto next = firsts;
+    numbers.assign(n_field_nodes(), dealii::numbers::invalid_dof_index);
+    for_each([&](unsigned int node, unsigned int) {
+      if (numbers[node] == dealii::numbers::invalid_dof_index)
+        numbers[node] = next[n_ranks > 1 ? owners[node] : 0]++;
+    });
+    firsts.back() = next[n_ranks - 1];
+    return firsts;
+  }
+
+  void
+  DisplacementSpace::add_ghosts(const std::vector<global_dof_index>                 &numbers,
+                                const std::pair<global_dof_index, global_dof_index> &owned)
+  {
+    if (owned.second - owned.first == numbers.size())
+      return;
+    std::vector<unsigned int> ghosts;
+    for (const unsigned int cell : cells)
+      for (unsigned int i = 0; i < n_nodes_per_cell(); ++i)
+        {
+          const unsigned int node = cell_node(cell, i);
+          if (numbers[node] < owned.first || numbers[node] >= owned.second)
+            ghosts.push_back(node);
+        }
+    std::sort(ghosts.begin(), ghosts.end(), [&](unsigned int i, unsigned int j) {
+      return numbers[i] < numbers[j];
+    });
+    ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
+    for (const unsigned int node : ghosts)
+      {
+        local_nodes[node] = field_nodes.size();
+        field_nodes.push_back(node);
+      }
   }
 
   void

@@ -4,9 +4,6 @@
 #include "tetradapt/mesh/space_curve.h"
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/distributed/fully_distributed_tria.h>
-#include <deal.II/grid/grid_tools.h>
-#include <deal.II/grid/tria_description.h>
 
 #include <algorithm>
 
@@ -14,60 +11,76 @@ namespace tetradapt::mechanics
 {
   namespace
   {
-    /** Cell numbers sorted by their centroids along a curve through space. */
-    std::vector<unsigned int>
-    order_in_space(const mesh::TetMesh &mesh)
+    using dealii::Point;
+    using Cells = std::vector<unsigned int>::iterator;
+
+    std::vector<Point<3>>
+    cell_centroids(const mesh::TetMesh &mesh)
     {
-      std::vector<dealii::Point<3>> centroids(mesh.n_cells());
+      std::vector<Point<3>> centroids(mesh.n_cells());
       for (unsigned int c = 0; c < mesh.n_cells(); ++c)
         for (const unsigned int v : mesh.cells[c])
           centroids[c] += 0.25 * dealii::Tensor<1, 3>(mesh.points[v]);
-      const auto box = mesh::bounding_box(mesh);
-      return mesh::SpaceCurve(box.first, box.second).order(centroids);
+      return centroids;
     }
 
-    void
-    build_serial(const mesh::TetMesh             &mesh,
-                 const std::vector<unsigned int> &order,
-                 dealii::Triangulation<3>        &tria)
+    unsigned int
+    longest_extent(const std::vector<Point<3>> &centroids, Cells begin, Cells end)
     {
-      std::vector<dealii::CellData<3>> cells(mesh.n_cells(), dealii::CellData<3>(4));
-      for (unsigned int i = 0; i < cells.size(); ++i)
+      Point<3> lower = centroids[*begin], upper = lower;
+      for (Cells cell = begin; cell != end; ++cell)
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            lower[d] = std::min(lower[d], centroids[*cell][d]);
+            upper[d] = std::max(upper[d], centroids[*cell][d]);
+          }
+      unsigned int longest = 0;
+      for (unsigned int d = 1; d < 3; ++d)
+        if (upper[d] - lower[d] > upper[longest] - lower[longest])
+          longest = d;
+      return longest;
+    }
+
+    /** Shares the cells from @p begin to @p end out among @p n_ranks ranks from
+     * @p first_rank on. */
+    void
+    bisect(const std::vector<Point<3>> &centroids,
+           Cells                        begin,
+           Cells                        end,
+           unsigned int                 first_rank,
+           unsigned int                 n_ranks,
+           std::vector<unsigned int>   &owners)
+    {
+      if (n_ranks == 1 || begin == end)
         {
-          const auto &vertices = mesh.cells[order[i]];
-          std::copy(vertices.begin(), vertices.end(), cells[i].vertices.begin());
+          for (Cells cell = begin; cell != end; ++cell)
+            owners[*cell] = first_rank;
+          return;
         }
-      tria.create_triangulation(mesh.points, cells, dealii::SubCellData());
+      const unsigned int  d     = longest_extent(centroids, begin, end);
+      const unsigned int  lower = n_ranks / 2;
+      const std::uint64_t share = static_cast<std::uint64_t>(end - begin) * lower / n_ranks;
+      const Cells         cut   = begin + share;
+      std::nth_element(begin, cut, end, [&](unsigned int i, unsigned int j) {
+        return centroids[i][d] != centroids[j][d] ? centroids[i][d] < centroids[j][d] : i < j;
+      });
+      bisect(centroids, begin, cut, first_rank, lower, owners);
+      bisect(centroids, cut, end, first_rank + lower, n_ranks - lower, owners);
     }
   } // namespace
 
   MeshPartition::MeshPartition(const mesh::TetMesh &mesh, MPI_Comm communicator)
-    : tet_mesh(mesh), mpi_communicator(communicator), cell_order(order_in_space(mesh))
+    : tet_mesh(mesh), mpi_communicator(communicator),
+      rank_count(dealii::Utilities::MPI::n_mpi_processes(communicator))
   {
-    const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
-    if (n_ranks == 1)
+    const auto centroids = cell_centroids(mesh);
+    const auto box       = mesh::bounding_box(mesh);
+    cell_order           = mesh::SpaceCurve(box.first, box.second).order(centroids);
+    if (rank_count > 1)
       {
-        tria = std::make_unique<dealii::Triangulation<3>>();
-        build_serial(mesh, cell_order, *tria);
-        return;
+        std::vector<unsigned int> cells = cell_order;
+        owners.resize(cells.size());
+        bisect(centroids, cells.begin(), cells.end(), 0, rank_count, owners);
       }
-    auto distributed
-      = std::make_unique<dealii::parallel::fullydistributed::Triangulation<3>>(communicator);
-    const auto description = dealii::TriangulationDescription::Utilities::
-      create_description_from_triangulation_in_groups<3, 3>(
-        [&](dealii::Triangulation<3> &serial) { build_serial(mesh, cell_order, serial); },
-        [n_ranks](dealii::Triangulation<3> &serial, const MPI_Comm, const unsigned int) {
-          dealii::GridTools::partition_triangulation(n_ranks, serial);
-        },
-        communicator,
-        n_ranks);
-    distributed->create_triangulation(description);
-    tria = std::move(distributed);
-  }
-
-  unsigned int
-  MeshPartition::mesh_cell(const dealii::Triangulation<3>::active_cell_iterator &cell) const
-  {
-    return cell_order[cell->id().get_coarse_cell_id()];
   }
 } // namespace tetradapt::mechanics

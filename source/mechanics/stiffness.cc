@@ -1,28 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/mechanics/stiffness.h"
 
-#include <map>
-
 namespace tetradapt::mechanics
 {
   namespace
   {
-    /** Stiffness in Voigt order xx, yy, zz, yz, xz, xy for engineering shears. */
-    using VoigtMatrix = std::array<std::array<double, 6>, 6>;
-
-    constexpr std::array<std::array<unsigned int, 2>, 6> voigt{
-      {{{0, 0}}, {{1, 1}}, {{2, 2}}, {{1, 2}}, {{0, 2}}, {{0, 1}}}};
-
-    VoigtMatrix
-    to_voigt(const SymmetricTensor<4, 3> &C)
-    {
-      VoigtMatrix D;
-      for (unsigned int i = 0; i < 6; ++i)
-        for (unsigned int j = 0; j < 6; ++j)
-          D[i][j] = C[voigt[i][0]][voigt[i][1]][voigt[j][0]][voigt[j][1]];
-      return D;
-    }
-
     /** Barycentric points of the stiffness quadrature; equal weights. */
     std::vector<mesh::Barycentric>
     stiffness_points(unsigned int degree)
@@ -45,18 +27,22 @@ namespace tetradapt::mechanics
       void
       compute(const mesh::TetMesh                  &mesh,
               unsigned int                          cell,
-              const VoigtMatrix                    &D,
+              const TangentField                   &tangents,
               const std::vector<mesh::Barycentric> &points)
       {
         blocks.fill(BlockMatrix::Block{});
         const auto         directions = mesh::barycentric_gradients(mesh, cell);
         const double       weight     = mesh::cell_volume(mesh, cell) / points.size();
         const unsigned int degree     = n == 4 ? 1 : 2;
-        for (const auto &point : points)
+        for (unsigned int q = 0; q < points.size(); ++q)
           {
             std::array<Tensor<1, 3>, n> g;
-            mesh::shape_gradients(degree, point, directions, g.data());
-            add_point(g, D, weight);
+            mesh::shape_gradients(degree, points[q], directions, g.data());
+            if (points.size() == tangents.points_per_cell() || tangents.points_per_cell() == 1)
+              add_point(g, tangents.at(cell, q), weight);
+            else
+              for (unsigned int p = 0; p < 4; ++p)
+                add_point(g, tangents.at(cell, p), 0.25 * weight);
           }
       }
 
@@ -121,8 +107,8 @@ namespace tetradapt::mechanics
             if ((!i_fixed && !j_fixed) || (row == column && i == j))
               target[3 * i + j] += value;
             else if (!i_fixed)
-              system.right_hand_side.local_element(3 * row + i)
-                -= value * prescribed.values[column_node][j];
+              system.prescribed_forces.local_element(3 * row + i)
+                += value * prescribed.values[column_node][j];
           }
     }
 
@@ -156,59 +142,51 @@ namespace tetradapt::mechanics
     template <unsigned int n>
     void
     assemble_cells(const DisplacementSpace      &space,
-                   const MaterialMap            &materials,
+                   const TangentField           &tangents,
                    const PrescribedDisplacement &prescribed,
                    LinearSystem                 &system)
     {
-      const mesh::TetMesh       &mesh   = space.tet_mesh();
-      const auto                 points = stiffness_points(space.degree());
-      std::map<int, VoigtMatrix> tangents;
-      CellStiffness<n>           stiffness;
+      const mesh::TetMesh &mesh   = space.tet_mesh();
+      const auto           points = stiffness_points(space.degree());
+      CellStiffness<n>     stiffness;
       for (const unsigned int cell : space.touching_cells())
         {
-          const int region = mesh.regions[cell];
-          auto      D      = tangents.find(region);
-          if (D == tangents.end())
-            D = tangents.emplace(region, to_voigt(materials.law(region).tangent(Tensor<2, 3>())))
-                  .first;
-          stiffness.compute(mesh, cell, D->second, points);
+          stiffness.compute(mesh, cell, tangents, points);
           add_cell(space, cell, stiffness, prescribed, system);
-        }
-    }
-
-    void
-    set_right_hand_side(const DisplacementSpace         &space,
-                        const PrescribedDisplacement    &prescribed,
-                        const std::vector<Tensor<1, 3>> &forces,
-                        LinearSystem                    &system)
-    {
-      for (unsigned int row = 0; row < space.n_owned_nodes(); ++row)
-        {
-          const unsigned int node     = space.field_node(row);
-          const auto        &diagonal = system.matrix.block(system.matrix.find(row, row));
-          for (unsigned int c = 0; c < 3; ++c)
-            if (prescribed.is_fixed(node, c))
-              system.right_hand_side.local_element(3 * row + c)
-                = diagonal[4 * c] * prescribed.values[node][c];
-            else
-              system.right_hand_side.local_element(3 * row + c) += forces[node][c];
         }
     }
   } // namespace
 
   LinearSystem
-  assemble(const DisplacementSpace         &space,
-           const MaterialMap               &materials,
-           const PrescribedDisplacement    &prescribed,
-           const std::vector<Tensor<1, 3>> *forces)
+  assemble(const DisplacementSpace      &space,
+           const TangentField           &tangents,
+           const PrescribedDisplacement &prescribed)
   {
     LinearSystem system(space);
     if (space.degree() == 1)
-      assemble_cells<4>(space, materials, prescribed, system);
+      assemble_cells<4>(space, tangents, prescribed, system);
     else
-      assemble_cells<10>(space, materials, prescribed, system);
-    if (forces != nullptr)
-      set_right_hand_side(space, prescribed, *forces, system);
+      assemble_cells<10>(space, tangents, prescribed, system);
     return system;
+  }
+
+  Vector
+  right_hand_side(const LinearSystem              &system,
+                  const DisplacementSpace         &space,
+                  const PrescribedDisplacement    &prescribed,
+                  const std::vector<Tensor<1, 3>> &forces)
+  {
+    Vector b(space.vector_layout());
+    for (unsigned int row = 0; row < space.n_owned_nodes(); ++row)
+      {
+        const unsigned int node     = space.field_node(row);
+        const auto        &diagonal = system.matrix.block(system.matrix.find(row, row));
+        for (unsigned int c = 0; c < 3; ++c)
+          b.local_element(3 * row + c)
+            = prescribed.is_fixed(node, c)
+                ? diagonal[4 * c] * prescribed.values[node][c]
+                : forces[node][c] - system.prescribed_forces.local_element(3 * row + c);
+      }
+    return b;
   }
 } // namespace tetradapt::mechanics

@@ -73,12 +73,12 @@ namespace tetradapt::solve
   } // namespace
 
   IterationResult
-  conjugate_gradients(const mechanics::BlockMatrix &matrix,
-                      const Preconditioner         &preconditioner,
-                      const Vector                 &right_hand_side,
-                      const IterationLimits        &limits,
-                      const core::Log              &log,
-                      Vector                       &x)
+  conjugate_gradients(const mechanics::LinearOperator<double> &matrix,
+                      const Preconditioner                    &preconditioner,
+                      const Vector                            &right_hand_side,
+                      const IterationLimits                   &limits,
+                      const core::Log                         &log,
+                      Vector                                  &x)
   {
     Vector residual(right_hand_side), preconditioned, direction, product;
     for (Vector *vector : {&preconditioned, &direction, &product})

@@ -22,32 +22,61 @@ namespace tetradapt::solve
   } // namespace
 
   LinearSolver::LinearSolver(const LinearModel             &model,
-                             const mechanics::BlockMatrix  &matrix,
                              const scene::SolverParameters &parameters,
                              const core::Log               &log)
-    : space(model.space), prescribed(model.prescribed), matrix(matrix), parameters(parameters),
-      log(log)
+    : space(model.space), prescribed(model.prescribed), parameters(parameters), log(log)
   {
-    if (is_direct(parameters, space.n_dofs()))
+    const bool factorise = is_direct(parameters, space.n_dofs());
+    if (factorise || space.degree() == 1)
+      assembled = std::make_unique<mechanics::LinearSystem>(
+        mechanics::assemble(space, model.tangents, prescribed));
+    else
+      matrix_free = std::make_unique<mechanics::MatrixFreeStiffness<double>>(space,
+                                                                             model.tangents,
+                                                                             prescribed);
+    log.progress(factorise ? "factorising" : "building the preconditioner");
+    if (factorise)
       {
-        log.progress("factorising");
-        direct      = std::make_unique<DirectSolver>(matrix, space);
+        direct      = std::make_unique<DirectSolver>(assembled->matrix, space);
         description = "direct (KLU)";
-        return;
       }
-    log.progress("building the preconditioner");
+    else
+      make_preconditioner(model);
+  }
+  void
+  LinearSolver::make_preconditioner(const LinearModel &model)
+  {
     if (space.degree() == 1)
       {
-        preconditioner = make_amg(matrix, space, prescribed);
+        preconditioner = make_amg(assembled->matrix, space, prescribed);
         description    = "conjugate gradients, AMG";
         return;
       }
-    coarse_space = std::make_unique<mechanics::DisplacementSpace>(model.partition, 1, nullptr);
-    const auto coarse
-      = mechanics::assemble(*coarse_space, model.materials, model.prescribed, nullptr);
-    preconditioner
-      = make_p_multigrid(matrix, space, coarse.matrix, *coarse_space, model.prescribed);
+    coarse_space      = std::make_unique<mechanics::DisplacementSpace>(model.partition, 1, nullptr);
+    const auto coarse = mechanics::assemble(*coarse_space, model.tangents, prescribed);
+    preconditioner    = make_p_multigrid<double>(
+      std::make_unique<mechanics::MatrixFreeStiffness<double>>(space, model.tangents, prescribed),
+      space,
+      *coarse_space,
+      prescribed,
+      make_amg(coarse.matrix, *coarse_space, prescribed));
     description = "conjugate gradients, p-multigrid on AMG";
+  }
+
+  const mechanics::LinearOperator<double> &
+  LinearSolver::matrix() const
+  {
+    if (matrix_free != nullptr)
+      return *matrix_free;
+    return assembled->matrix;
+  }
+
+  Vector
+  LinearSolver::right_hand_side(const std::vector<dealii::Tensor<1, 3>> &forces) const
+  {
+    return matrix_free != nullptr
+             ? matrix_free->right_hand_side(prescribed, forces)
+             : mechanics::right_hand_side(*assembled, space, prescribed, forces);
   }
 
   double
@@ -100,7 +129,7 @@ namespace tetradapt::solve
     limits.relative_error = stop.relative_error;
     limits.max_iterations = parameters.max_iterations;
     const IterationResult result
-      = conjugate_gradients(matrix, *preconditioner, right_hand_side, limits, log, x);
+      = conjugate_gradients(matrix(), *preconditioner, right_hand_side, limits, log, x);
     if (!result.converged)
       {
         std::ostringstream message;

@@ -49,10 +49,10 @@ namespace tetradapt::solve
       space = std::make_unique<DisplacementSpace>(partition, degree, edges.get());
       log.progress("assembling " + std::to_string(space->n_dofs()) + " unknowns");
       forces = mechanics::nodal_forces(scene, materials, *space);
-      system = std::make_unique<mechanics::LinearSystem>(
-        mechanics::assemble(*space, materials, prescribed, &forces));
-      const LinearModel model{partition, *space, materials, prescribed};
-      solver = std::make_unique<LinearSolver>(model, system->matrix, scene.solver, log);
+      const mechanics::TangentField tangents(materials, *mesh);
+      solver = std::make_unique<LinearSolver>(LinearModel{partition, *space, tangents, prescribed},
+                                              scene.solver,
+                                              log);
     }
 
     /** The unknowns with a value of @p free where they are free, if it is not null,
@@ -73,16 +73,15 @@ namespace tetradapt::solve
       return x;
     }
 
-    const mechanics::MaterialMap            &materials;
-    std::shared_ptr<const mesh::TetMesh>     mesh;
-    unsigned int                             degree;
-    core::Log                                log;
-    std::shared_ptr<const mesh::EdgeTable>   edges;
-    mechanics::PrescribedDisplacement        prescribed;
-    std::unique_ptr<DisplacementSpace>       space;
-    NodalValues                              forces; ///< of the loads, on the nodes owned
-    std::unique_ptr<mechanics::LinearSystem> system;
-    std::unique_ptr<LinearSolver>            solver;
+    const mechanics::MaterialMap          &materials;
+    std::shared_ptr<const mesh::TetMesh>   mesh;
+    unsigned int                           degree;
+    core::Log                              log;
+    std::shared_ptr<const mesh::EdgeTable> edges;
+    mechanics::PrescribedDisplacement      prescribed;
+    std::unique_ptr<DisplacementSpace>     space;
+    NodalValues                            forces; ///< of the loads, on the nodes owned
+    std::unique_ptr<LinearSolver>          solver;
   };
 
   StaticSystem::StaticSystem(const scene::Scene                  &scene,
@@ -109,7 +108,7 @@ namespace tetradapt::solve
 
     Vector     x = data->vector_of(start == nullptr ? nullptr : &start->values, 1.);
     const auto result
-      = data->solver->solve(data->system->right_hand_side,
+      = data->solver->solve(data->solver->right_hand_side(data->forces),
                             {stop.residual, stop.algebraic_error, stop.relative_error},
                             "The loads",
                             x);

@@ -2,9 +2,7 @@
 #ifndef tetradapt_mechanics_block_matrix_h
 #define tetradapt_mechanics_block_matrix_h
 
-#include "tetradapt/mechanics/displacement_space.h"
-
-#include <deal.II/base/subscriptor.h>
+#include "tetradapt/mechanics/linear_operator.h"
 
 namespace tetradapt::mechanics
 {
@@ -14,7 +12,7 @@ namespace tetradapt::mechanics
    * ghosts). One index a block instead of nine keeps the product with a vector
    * bound by the values alone.
    */
-  class BlockMatrix : public dealii::Subscriptor
+  class BlockMatrix : public LinearOperator<double>
   {
   public:
     using Block = std::array<double, 9>; ///< row by row
@@ -26,12 +24,6 @@ namespace tetradapt::mechanics
     n_rows() const
     {
       return row_starts.size() - 1;
-    }
-    /** Unknowns over all ranks; deal.II's solvers ask for it. */
-    dealii::types::global_dof_index
-    m() const
-    {
-      return layout->size();
     }
     std::size_t
     n_blocks() const
@@ -67,16 +59,11 @@ namespace tetradapt::mechanics
     std::size_t
     find(unsigned int row, unsigned int column) const;
 
-    /** destination = A source. Collective: fetches the ghost values of @p source. */
     void
-    vmult(Vector &destination, const Vector &source) const;
-
-    /** The diagonal, as a vector in the space's layout. */
-    void
-    diagonal(Vector &values) const;
+    vmult(Vector &destination, const Vector &source) const override;
 
     const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &
-    vector_layout() const
+    vector_layout() const override
     {
       return layout;
     }

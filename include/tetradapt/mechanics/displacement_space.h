@@ -16,16 +16,17 @@ namespace tetradapt::mechanics
    * The continuous displacements of degree 1 or 2 on a partitioned mesh, and the
    * numbering of their nodes over the ranks.
    *
-   * deal.II's DoFHandler numbers the nodes (a scalar FE_SimplexP); component c of
-   * node i is unknown 3 i + c. A node has a number in the NodalField ("field
+   * Nodes are numbered rank by rank, in the order in which the partition's cells first
+   * name them; component c of node i is unknown 3 i + c. Of the ranks whose cells have a
+   * node, the first owns it. A node has a number in the NodalField ("field
    * node"), the same on every rank, and on the ranks that need it a "local node":
    * first the nodes that the rank owns, then the ghosts.
    */
   class DisplacementSpace
   {
   public:
-    /** Collective. @p edges is needed for degree 2; both arguments must outlive
-     * this object. */
+    /** Collective. @p edges is needed for degree 2; it and the partition's mesh must
+     * outlive this object. */
     DisplacementSpace(const MeshPartition   &partition,
                       unsigned int           degree,
                       const mesh::EdgeTable *edges);
@@ -76,7 +77,7 @@ namespace tetradapt::mechanics
       return partitioner->local_to_global(3 * local_node) / 3;
     }
     /** Mesh cells that touch a node owned by this rank, in the order of the
-     * triangulation: what assembling complete rows needs. */
+     * partition: what assembling complete rows needs. */
     const std::vector<unsigned int> &
     touching_cells() const
     {
@@ -120,6 +121,16 @@ namespace tetradapt::mechanics
     gather(const Vector &vector, std::vector<dealii::Tensor<1, 3>> &field) const;
 
   private:
+    /** Numbers all nodes of the mesh; returns the first number of each rank. */
+    std::vector<dealii::types::global_dof_index>
+    number(const MeshPartition                          &partition,
+           std::vector<dealii::types::global_dof_index> &numbers) const;
+    /** The nodes of other ranks that touching_cells() have, by global number. */
+    void
+    add_ghosts(
+      const std::vector<dealii::types::global_dof_index>                                &numbers,
+      const std::pair<dealii::types::global_dof_index, dealii::types::global_dof_index> &owned);
+
     const mesh::TetMesh                                       &mesh;
     const mesh::EdgeTable                                     *edges;
     unsigned int                                               polynomial_degree;

@@ -4,51 +4,59 @@
 
 #include "tetradapt/mesh/tet_mesh.h"
 
-#include <deal.II/grid/tria.h>
-
-#include <memory>
+#include <mpi.h>
 
 namespace tetradapt::mechanics
 {
   /**
-   * The deal.II triangulation of a TetMesh, distributed over the ranks of a
-   * communicator: a plain Triangulation on one rank, and on several a
-   * parallel::fullydistributed::Triangulation partitioned by METIS.
+   * The cells of a TetMesh in the order in which they are worked on, and the MPI rank that
+   * owns each.
    *
-   * Cells are handed to deal.II sorted along a Morton curve, so that unknowns
-   * numbered cell by cell lie close together in memory; mesh_cell() leads back.
+   * The order follows a curve through space, so that what is numbered cell by cell lies
+   * close together in memory. The ranks get equally many cells: the body is cut in two at
+   * right angles to its longest extent, and so on (recursive coordinate bisection). Every
+   * rank holds the whole mesh and computes the same partition, without communication.
    */
   class MeshPartition
   {
   public:
-    /** Collective; every rank passes the same mesh, which must be finalized and
-     * outlive this object. */
+    /** Every rank passes the same mesh, which must outlive this object. */
     MeshPartition(const mesh::TetMesh &mesh, MPI_Comm communicator);
 
-    const dealii::Triangulation<3> &
-    triangulation() const
-    {
-      return *tria;
-    }
     MPI_Comm
     communicator() const
     {
       return mpi_communicator;
+    }
+    unsigned int
+    n_ranks() const
+    {
+      return rank_count;
     }
     const mesh::TetMesh &
     mesh() const
     {
       return tet_mesh;
     }
-    /** The number in the TetMesh of an active cell of the triangulation. */
+    /** All cells of the mesh, along the curve. */
+    const std::vector<unsigned int> &
+    order() const
+    {
+      return cell_order;
+    }
+    /** The rank that owns cell @p cell of the mesh. */
     unsigned int
-    mesh_cell(const dealii::Triangulation<3>::active_cell_iterator &cell) const;
+    owner(unsigned int cell) const
+    {
+      return owners.empty() ? 0 : owners[cell];
+    }
 
   private:
-    const mesh::TetMesh                      &tet_mesh;
-    MPI_Comm                                  mpi_communicator;
-    std::vector<unsigned int>                 cell_order; ///< triangulation's -> mesh's number
-    std::unique_ptr<dealii::Triangulation<3>> tria;
+    const mesh::TetMesh      &tet_mesh;
+    MPI_Comm                  mpi_communicator;
+    unsigned int              rank_count;
+    std::vector<unsigned int> cell_order;
+    std::vector<unsigned int> owners; ///< empty on one rank
   };
 } // namespace tetradapt::mechanics
 

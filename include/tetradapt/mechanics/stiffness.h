@@ -3,37 +3,43 @@
 #define tetradapt_mechanics_stiffness_h
 
 #include "tetradapt/mechanics/block_matrix.h"
-#include "tetradapt/mechanics/material_map.h"
 #include "tetradapt/mechanics/supports.h"
+#include "tetradapt/mechanics/tangent_field.h"
 
 namespace tetradapt::mechanics
 {
-  /** A linear system with the supports built in: constrained rows and columns
-   * hold only their diagonal entry, and the right-hand side there is that entry
-   * times the prescribed value. */
+  /** A stiffness matrix with the supports built in: constrained rows and columns hold
+   * only their diagonal entry. */
   struct LinearSystem
   {
     explicit LinearSystem(const DisplacementSpace &space) : matrix(space)
     {
-      right_hand_side.reinit(space.vector_layout());
+      prescribed_forces.reinit(space.vector_layout());
     }
     BlockMatrix matrix;
-    Vector      right_hand_side;
+    /** What the prescribed displacement takes from the forces on free unknowns. */
+    Vector prescribed_forces;
   };
 
   /**
-   * The stiffness int B^T C B with the laws' tangents at rest, one a region, and the given nodal
-   * forces; 1 quadrature point for degree 1, 4 for degree 2
-   * (exact for constant tangents). No communication: each rank
-   * assembles the complete rows of its nodes.
-   *
-   * @param forces may be null, when only the matrix is wanted (a coarser level).
+   * The stiffness int B^T C B and the given nodal forces; 1 quadrature point for
+   * degree 1, with the mean of the cell's tangents, 4 for degree 2. Exact for constant
+   * tangents; and the matrix of degree 1 is always that of degree 2 in the subspace. No
+   * communication: each rank assembles the complete rows of its nodes.
    */
   LinearSystem
-  assemble(const DisplacementSpace                 &space,
-           const MaterialMap                       &materials,
-           const PrescribedDisplacement            &prescribed,
-           const std::vector<dealii::Tensor<1, 3>> *forces);
+  assemble(const DisplacementSpace      &space,
+           const TangentField           &tangents,
+           const PrescribedDisplacement &prescribed);
+
+  /** The right-hand side of an assembled system for forces on the nodes of the field:
+   * these less those of the prescribed displacement where unknowns are free, else the
+   * diagonal entry times the prescribed value. */
+  Vector
+  right_hand_side(const LinearSystem                      &system,
+                  const DisplacementSpace                 &space,
+                  const PrescribedDisplacement            &prescribed,
+                  const std::vector<dealii::Tensor<1, 3>> &forces);
 } // namespace tetradapt::mechanics
 
 #endif

@@ -84,12 +84,12 @@ namespace tetradapt::solve
   /** Preconditioned conjugate gradients for matrix x = right-hand side from @p x on.
    * Collective. */
   IterationResult
-  conjugate_gradients(const mechanics::BlockMatrix &matrix,
-                      const Preconditioner         &preconditioner,
-                      const Vector                 &right_hand_side,
-                      const IterationLimits        &limits,
-                      const core::Log              &log,
-                      Vector                       &x);
+  conjugate_gradients(const mechanics::LinearOperator<double> &matrix,
+                      const Preconditioner                    &preconditioner,
+                      const Vector                            &right_hand_side,
+                      const IterationLimits                   &limits,
+                      const core::Log                         &log,
+                      Vector                                  &x);
 } // namespace tetradapt::solve
 
 #endif

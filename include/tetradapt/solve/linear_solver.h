@@ -7,15 +7,16 @@
 #include "tetradapt/scene/study_parameters.h"
 #include "tetradapt/solve/conjugate_gradients.h"
 #include "tetradapt/solve/direct_solver.h"
+#include "tetradapt/solve/preconditioners.h"
 
 namespace tetradapt::solve
 {
-  /** What a preconditioner may build coarser levels from. */
+  /** What a matrix and its coarser levels are built from. */
   struct LinearModel
   {
     const mechanics::MeshPartition          &partition;
     const mechanics::DisplacementSpace      &space;
-    const mechanics::MaterialMap            &materials;
+    const mechanics::TangentField           &tangents;
     const mechanics::PrescribedDisplacement &prescribed;
   };
 
@@ -36,19 +37,25 @@ namespace tetradapt::solve
   };
 
   /**
-   * Solves systems with one matrix. Chooses by parameters: a factorisation for few
-   * unknowns, else conjugate gradients with AMG (degree 1) or p-multigrid on AMG
-   * (degree 2). Factors or preconditioner are made once and serve every right-hand
-   * side.
+   * A stiffness matrix, and what solves systems with it. Chooses by parameters: a
+   * factorisation for few unknowns, else conjugate gradients with AMG (degree 1) or with
+   * p-multigrid on AMG and a matrix-free product (degree 2). Factors or preconditioner
+   * are made once and serve every right-hand side.
    */
   class LinearSolver
   {
   public:
-    /** Collective. Keeps references to all but @p model.partition. */
+    /** Collective. Keeps references to the model's space and supports, and to the other
+     * arguments. */
     LinearSolver(const LinearModel             &model,
-                 const mechanics::BlockMatrix  &matrix,
                  const scene::SolverParameters &parameters,
                  const core::Log               &log);
+
+    /** The right-hand side for forces on the nodes of the field: less those of the
+     * prescribed displacement where unknowns are free; elsewhere a diagonal entry of the
+     * matrix times the prescribed value. No communication. */
+    Vector
+    right_hand_side(const std::vector<dealii::Tensor<1, 3>> &forces) const;
 
     /**
      * Solves for @p x from @p x on, which has the prescribed values. Conjugate
@@ -71,20 +78,25 @@ namespace tetradapt::solve
     precondition(Vector &destination, const Vector &source) const;
 
   private:
+    void
+    make_preconditioner(const LinearModel &model);
+    const mechanics::LinearOperator<double> &
+    matrix() const;
     double
     load_norm(const Vector &right_hand_side) const;
     LinearResult
     iterate(const Vector &right_hand_side, const LinearStop &stop, double norm, Vector &x) const;
 
-    const mechanics::DisplacementSpace           &space;
-    const mechanics::PrescribedDisplacement      &prescribed;
-    const mechanics::BlockMatrix                 &matrix;
-    const scene::SolverParameters                &parameters;
-    const core::Log                              &log;
-    std::string                                   description;
-    std::unique_ptr<mechanics::DisplacementSpace> coarse_space; ///< of p-multigrid
-    std::unique_ptr<Preconditioner>               preconditioner;
-    std::unique_ptr<DirectSolver>                 direct;
+    const mechanics::DisplacementSpace                     &space;
+    const mechanics::PrescribedDisplacement                &prescribed;
+    const scene::SolverParameters                          &parameters;
+    const core::Log                                        &log;
+    std::string                                             description;
+    std::unique_ptr<mechanics::LinearSystem>                assembled;
+    std::unique_ptr<mechanics::MatrixFreeStiffness<double>> matrix_free;
+    std::unique_ptr<mechanics::DisplacementSpace>           coarse_space; ///< of p-multigrid
+    std::unique_ptr<Preconditioner>                         preconditioner;
+    std::unique_ptr<DirectSolver>                           direct;
   };
 } // namespace tetradapt::solve
 

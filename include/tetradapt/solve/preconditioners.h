@@ -2,6 +2,7 @@
 #ifndef tetradapt_solve_preconditioners_h
 #define tetradapt_solve_preconditioners_h
 
+#include "tetradapt/mechanics/matrix_free_stiffness.h"
 #include "tetradapt/mechanics/stiffness.h"
 
 #include <memory>
@@ -9,16 +10,28 @@
 namespace tetradapt::solve
 {
   using Vector = mechanics::Vector;
+  template <typename Number>
+  using VectorOf = mechanics::VectorOf<Number>;
 
   /** What conjugate gradients are preconditioned with: symmetric, positive. */
-  class Preconditioner
+  template <typename Number>
+  class ApproximateInverse
   {
   public:
-    virtual ~Preconditioner() = default;
+    virtual ~ApproximateInverse() = default;
     /** destination = approximate inverse times source. Collective. */
     virtual void
-    vmult(Vector &destination, const Vector &source) const = 0;
+    vmult(VectorOf<Number> &destination, const VectorOf<Number> &source) const = 0;
   };
+
+  using Preconditioner = ApproximateInverse<double>;
+
+  /** An approximate inverse in single precision, for vectors in double precision of any
+   * size: @p scale times that of the vector over its largest entry, times this. */
+  std::unique_ptr<Preconditioner>
+  in_double(std::unique_ptr<ApproximateInverse<float>>                        inverse,
+            double                                                            scale,
+            const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &layout);
 
   /**
    * Smoothed-aggregation AMG (Trilinos ML) with the six rigid motions as near
@@ -31,15 +44,16 @@ namespace tetradapt::solve
 
   /**
    * One V-cycle of p-multigrid for a matrix of degree 2: Chebyshev smoothing with
-   * 3x3 block Jacobi there, and @p coarse_matrix of degree 1 solved by one cycle
-   * of AMG. Keeps references to @p fine_matrix and both spaces.
+   * 3x3 block Jacobi there, and degree 1 solved by one cycle of @p coarse_solver.
+   * @tparam Number is float or double. Keeps references to both spaces.
    */
-  std::unique_ptr<Preconditioner>
-  make_p_multigrid(const mechanics::BlockMatrix            &fine_matrix,
-                   const mechanics::DisplacementSpace      &fine_space,
-                   const mechanics::BlockMatrix            &coarse_matrix,
-                   const mechanics::DisplacementSpace      &coarse_space,
-                   const mechanics::PrescribedDisplacement &prescribed);
+  template <typename Number>
+  std::unique_ptr<ApproximateInverse<Number>>
+  make_p_multigrid(std::unique_ptr<mechanics::MatrixFreeStiffness<Number>> fine,
+                   const mechanics::DisplacementSpace                     &fine_space,
+                   const mechanics::DisplacementSpace                     &coarse_space,
+                   const mechanics::PrescribedDisplacement                &prescribed,
+                   std::unique_ptr<ApproximateInverse<Number>>             coarse_solver);
 } // namespace tetradapt::solve
 
 #endif

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// The solver alone, on the clamped beam 10 x 1 x 1 in equal tetrahedra:
+//
+//   tetradapt_solver_benchmark <subdivisions> [degree [nu [contrast [distortion [product]]]]]
+//
+// prints one line of CSV with a header: unknowns, iterations to 1e-8, seconds of set-up
+// (edges, supports, numbering, matrix, preconditioner) and of the solve (iterations,
+// energies), and of one product with the assembled matrix (best of twenty) if the last
+// argument is 1. CPU seconds, the largest of all ranks, and wall seconds of the first two.
+// A contrast makes the half x > 5 that many times stiffer; a distortion moves inner points
+// by up to that part of a brick.
+
+#include "tetradapt/core/exceptions.h"
+#include "tetradapt/mechanics/stiffness.h"
+#include "tetradapt/mesh/bricks.h"
+#include "tetradapt/mesh/mesh_checks.h"
+#include "tetradapt/mesh/mesh_factory.h"
+#include "tetradapt/mesh/selection.h"
+#include "tetradapt/scene/scene.h"
+#include "tetradapt/solve/static_solution.h"
+#include "tetradapt/solve/static_system.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <iostream>
+
+namespace
+{
+  using namespace tetradapt;
+  using dealii::Point;
+
+  struct Seconds
+  {
+    double cpu = 0., wall = 0.;
+  };
+
+  /** What @p action takes, the largest of all ranks. */
+  template <typename Action>
+  Seconds
+  measure(const Action &action)
+  {
+    MPI_Barrier(MPI_COMM_WORLD);
+    const auto cpu = [] {
+      timespec time;
+      clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+      return time.tv_sec + 1e-9 * time.tv_nsec;
+    };
+    const auto   wall      = std::chrono::steady_clock::now();
+    const double cpu_begin = cpu();
+    action();
+    Seconds seconds{cpu() - cpu_begin,
+                    std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count()};
+    seconds.cpu  = dealii::Utilities::MPI::max(seconds.cpu, MPI_COMM_WORLD);
+    seconds.wall = dealii::Utilities::MPI::max(seconds.wall, MPI_COMM_WORLD);
+    return seconds;
+  }
+
+  std::shared_ptr<mesh::TetMesh>
+  beam(unsigned int n, double distortion)
+  {
+    auto body = std::make_shared<mesh::TetMesh>(
+      mesh::bricks(Point<3>(), Point<3>(10, 1, 1), {{10 * n, n, n}}));
+    for (unsigned int c = 0; c < body->n_cells(); ++c)
+      {
+        double x = 0.;
+        for (const unsigned int p : body->cells[c])
+          x += 0.25 * body->points[p][0];
+        body->regions[c] = x > 5. ? 1 : 0;
+      }
+    double phase = 0.;
+    for (auto &p : body->points)
+      for (unsigned int d = 0; d < 3; ++d)
+        if (p[d] > 1e-9 && p[d] < (d == 0 ? 10. : 1.) - 1e-9 && std::abs(p[0] - 5.) > 1e-9)
+          p[d] += distortion / n * std::sin(phase += 1.7);
+    mesh::finalize(*body, "beam");
+    return body;
+  }
+
+  scene::Scene
+  cantilever(double nu, double contrast)
+  {
+    scene::Scene scene;
+    scene.materials.resize(2);
+    for (unsigned int i = 0; i < 2; ++i)
+      {
+        scene.materials[i].name          = i == 0 ? "beam" : "tip";
+        scene.materials[i].young_modulus = i == 0 ? 1000. : 1000. * contrast;
+        scene.materials[i].poisson_ratio = nu;
+      }
+    scene.materials[1].regions = {1};
+    scene.supports.resize(1);
+    scene.supports[0].name           = "clamp";
+    scene.supports[0].selector.where = "x < 1e-9";
+    scene.loads.resize(1);
+    scene.loads[0].name           = "tip";
+    scene.loads[0].type           = scene::LoadType::traction;
+    scene.loads[0].selector.where = "x > 10 - 1e-9";
+    scene.loads[0].value          = {{"0", "0", "-1"}};
+    scene.solver.type             = scene::SolverParameters::Type::cg;
+    return scene;
+  }
+
+  double
+  time_of_assembled_product(const scene::Scene           &scene,
+                            const mechanics::MaterialMap &materials,
+                            const mesh::TetMesh          &body,
+                            unsigned int                  degree)
+  {
+    const mechanics::MeshPartition     partition(body, MPI_COMM_WORLD);
+    const mesh::EdgeTable              edges = mesh::build_edges(body);
+    const mechanics::DisplacementSpace space(partition, degree, &edges);
+    const auto prescribed = mechanics::prescribe(scene.supports, body, &edges);
+    const auto system
+      = mechanics::assemble(space, mechanics::TangentField(materials, body), prescribed);
+    mechanics::Vector x(space.vector_layout()), y(x);
+    x           = 1.;
+    double best = 1e30;
+    for (unsigned int repetition = 0; repetition < 20; ++repetition)
+      best = std::min(best, measure([&] { system.matrix.vmult(y, x); }).cpu);
+    return best;
+  }
+
+  void
+  run(int argc, char *argv[])
+  {
+    const auto argument
+      = [&](int i, double value) { return argc > i ? std::stod(argv[i]) : value; };
+    const unsigned int n = argument(1, 8), degree = argument(2, 2);
+    const scene::Scene scene = cantilever(argument(3, 0.3), argument(4, 1.));
+    const auto         body  = beam(n, argument(5, 0.));
+    mesh::select_faces(*body, mesh::face_selectors(scene));
+    const mechanics::MaterialMap materials(scene, *body);
+
+    std::unique_ptr<solve::StaticSystem> system;
+    solve::StaticSolution                solution;
+    const Seconds                        set_up = measure([&] {
+      system = std::make_unique<solve::StaticSystem>(
+        scene, materials, body, degree, MPI_COMM_WORLD, core::Log());
+    });
+    const Seconds solving = measure([&] { solution = system->solve(nullptr, {}); });
+    system.reset();
+    const double product
+      = argument(6, 0.) > 0. ? time_of_assembled_product(scene, materials, *body, degree) : 0.;
+    if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      std::cout << "degree,unknowns,iterations,set_up_cpu,solve_cpu,set_up_wall,solve_wall,"
+                   "product_cpu,products,cpu_per_million,energy\n"
+                << degree << ',' << solution.n_dofs << ',' << solution.iterations << ','
+                << set_up.cpu << ',' << solving.cpu << ',' << set_up.wall << ',' << solving.wall
+                << ',' << product << ','
+                << (product > 0. ? (set_up.cpu + solving.cpu) / product : 0.) << ','
+                << (set_up.cpu + solving.cpu) / solution.n_dofs * 1e6 << ',' << solution.energy
+                << std::endl;
+  }
+} // namespace
+
+int
+main(int argc, char *argv[])
+{
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  try
+    {
+      run(argc, argv);
+    }
+  catch (const std::exception &error)
+    {
+      std::cerr << "error: " << error.what() << std::endl;
+      MPI_Abort(MPI_COMM_WORLD, 1);
+    }
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_mechanics_linear_operator_h
+#define tetradapt_mechanics_linear_operator_h
+
+#include "tetradapt/mechanics/displacement_space.h"
+
+namespace tetradapt::mechanics
+{
+  template <typename Number>
+  using VectorOf = dealii::LinearAlgebra::distributed::Vector<Number>;
+
+  /**
+   * A square matrix on the unknowns of a DisplacementSpace that can be multiplied with a
+   * vector, whether its entries are stored or not.
+   */
+  template <typename Number>
+  class LinearOperator
+  {
+  public:
+    virtual ~LinearOperator() = default;
+
+    /** destination = A source. Collective: fetches the ghost values of @p source, and sets
+     * them to zero again. */
+    virtual void
+    vmult(VectorOf<Number> &destination, const VectorOf<Number> &source) const = 0;
+
+    /** Layout of its vectors: owned and ghost unknowns of this rank. */
+    virtual const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &
+    vector_layout() const = 0;
+  };
+} // namespace tetradapt::mechanics
+
+#endif

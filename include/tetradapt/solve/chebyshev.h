@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_solve_chebyshev_h
+#define tetradapt_solve_chebyshev_h
+
+#include "tetradapt/mechanics/linear_operator.h"
+
+#include <array>
+#include <vector>
+
+namespace tetradapt::solve
+{
+  template <typename Number>
+  using VectorOf = mechanics::VectorOf<Number>;
+
+  /** The inverses of the diagonal blocks, n x n, one a node and row by row. A block that
+   * cannot be inverted, or whose inverse is not positive, is taken for its diagonal. */
+  template <typename Number, unsigned int n>
+  std::vector<std::array<Number, n * n>>
+  invert_blocks(const std::vector<std::array<Number, n * n>> &blocks);
+
+  /**
+   * A smoother of multigrid: Chebyshev polynomials of the fourth kind in D^-1 A, with D the
+   * diagonal blocks of A (J. Lottes, Optimal polynomial smoothers for multigrid V-cycles,
+   * Numer. Linear Algebra Appl. 30, 2023). They need the largest eigenvalue only, which
+   * some steps of Lanczos' method estimate.
+   *
+   * @tparam n is the size of the blocks: the unknowns of a node.
+   */
+  template <typename Number, unsigned int n>
+  class ChebyshevSmoother
+  {
+  public:
+    using Block = std::array<Number, n * n>;
+
+    /** Collective. Keeps a reference to @p matrix. @param inverses as invert_blocks()
+     * makes them; zero rows keep an unknown at zero. */
+    ChebyshevSmoother(const mechanics::LinearOperator<Number> &matrix,
+                      std::vector<Block>                       inverses,
+                      unsigned int                             degree);
+
+    /** One sweep from x = 0. degree - 1 products with the matrix. Collective. */
+    void
+    start(VectorOf<Number> &x, const VectorOf<Number> &b) const;
+
+    /** One sweep from @p x on. degree products. Collective. */
+    void
+    step(VectorOf<Number> &x, const VectorOf<Number> &b) const;
+
+    /** The estimate of the largest eigenvalue of D^-1 A, with its margin. */
+    double
+    largest_eigenvalue() const
+    {
+      return lambda;
+    }
+
+  private:
+    double
+    estimate_lambda() const;
+    /** The steps after the first; r is the residual. */
+    void
+    iterate(VectorOf<Number> &x, unsigned int begin) const;
+
+    const mechanics::LinearOperator<Number> &matrix;
+    std::vector<Block>                       inverses;
+    unsigned int                             degree;
+    double                                   lambda = 0.;
+    mutable VectorOf<Number>                 residual, direction, product;
+  };
+} // namespace tetradapt::solve
+
+#endif

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/mechanics/matrix_free_stiffness.h"
+
+#include "stiffness_kernel.h"
+
+#include <algorithm>
+
+namespace tetradapt::mechanics
+{
+  namespace
+  {
+    TangentForm
+    form_of(bool isotropic, bool one_tangent)
+    {
+      return isotropic     ? TangentForm::isotropic
+             : one_tangent ? TangentForm::one_per_cell
+                           : TangentForm::four_per_cell;
+    }
+
+    /** Writes the tangents of a cell, times @p weight, to every W-th entry of @p to. */
+    template <typename Number>
+    void
+    store_tangents(
+      const TangentField &tangents, TangentForm form, unsigned int cell, double weight, Number *to)
+    {
+      constexpr unsigned int W = stiffness_lanes<Number>;
+      if (form == TangentForm::isotropic)
+        {
+          const VoigtMatrix &D = tangents.at(cell, 0);
+          to[0]                = weight * D[0][1];
+          to[W]                = weight * D[3][3];
+          return;
+        }
+      for (unsigned int q = 0; q < tangents.points_per_cell(); ++q)
+        {
+          const VoigtMatrix &D = tangents.at(cell, q);
+          for (unsigned int i = 0; i < 6; ++i)
+            for (unsigned int j = i; j < 6; ++j, to += W)
+              *to = weight * D[i][j];
+        }
+    }
+  } // namespace
+
+  template <typename Number>
+  MatrixFreeStiffness<Number>::MatrixFreeStiffness(const DisplacementSpace      &space,
+                                                   const TangentField           &tangents,
+                                                   const PrescribedDisplacement &prescribed,
+                                                   const double                  scale)
+    : space(space), isotropic(tangents.is_isotropic()), one_tangent(tangents.points_per_cell() == 1)
+  {
+    for (unsigned int node = 0; node < space.n_local_nodes(); ++node)
+      for (unsigned int c = 0; c < 3; ++c)
+        if (prescribed.is_fixed(space.field_node(node), c))
+          fixed.push_back(3 * node + c);
+    store_cells(tangents, scale);
+    compute_diagonal();
+  }
+
+  template <typename Number>
+  void
+  MatrixFreeStiffness<Number>::store_cells(const TangentField &tangents, const double scale)
+  {
+    constexpr unsigned int    W     = stiffness_lanes<Number>;
+    const TangentForm         form  = form_of(isotropic, one_tangent);
+    const unsigned int        size  = tangent_size(form);
+    std::vector<unsigned int> cells = space.touching_cells();
+    const auto first_with_ghosts = std::stable_partition(cells.begin(), cells.end(), [&](auto c) {
+      for (unsigned int i = 0; i < 10; ++i)
+        if (space.local_node(space.cell_node(c, i)) >= space.n_owned_nodes())
+          return false;
+      return true;
+    });
+    n_own_batches                = (first_with_ghosts - cells.begin()) / W;
+    n_batches                    = (cells.size() + W - 1) / W;
+    nodes.resize_fast(10 * W * std::size_t(n_batches));
+    gradients.resize_fast(9 * W * std::size_t(n_batches));
+    tangent_values.resize(size * W * std::size_t(n_batches)); // zero: lanes left over do nothing
+    for (unsigned int k = 0; k < n_batches * W; ++k)
+      {
+        const unsigned int cell  = cells[std::min<std::size_t>(k, cells.size() - 1)];
+        const std::size_t  batch = k / W, lane = k % W;
+        for (unsigned int i = 0; i < 10; ++i)
+          nodes[(10 * batch + i) * W + lane] = space.local_node(space.cell_node(cell, i));
+        const auto g = mesh::barycentric_gradients(space.tet_mesh(), cell);
+        for (unsigned int i = 0; i < 9; ++i)
+          gradients[(9 * batch + i) * W + lane] = g[1 + i / 3][i % 3];
+        if (k < cells.size())
+          store_tangents(tangents,
+                         form,
+                         cell,
+                         0.25 * scale * mesh::cell_volume(space.tet_mesh(), cell),
+                         &tangent_values[size * W * batch + lane]);
+      }
+  }
+
+  template <typename Number>
+  void
+  MatrixFreeStiffness<Number>::compute_diagonal()
+  {
+    std::vector<Block> blocks(space.n_local_nodes(), Block{});
+    if (n_batches > 0)
+      add_diagonal_blocks<Number>(
+        {nodes.data(), gradients.data(), tangent_values.data(), form_of(isotropic, one_tangent)},
+        0,
+        n_batches,
+        blocks.data()->data());
+    blocks.resize(space.n_owned_nodes());
+    for (const unsigned int unknown : fixed)
+      if (unknown < 3 * blocks.size())
+        {
+          Block             &block = blocks[unknown / 3];
+          const unsigned int c     = unknown % 3;
+          for (unsigned int j = 0; j < 3; ++j)
+            if (j != c)
+              block[3 * c + j] = block[3 * j + c] = 0;
+        }
+    diagonal = std::move(blocks);
+  }
+
+  template <typename Number>
+  void
+  MatrixFreeStiffness<Number>::add_forces(unsigned int  begin,
+                                          unsigned int  end,
+                                          const Number *x,
+                                          Number       *y) const
+  {
+    apply_stiffness<Number>(
+      {nodes.data(), gradients.data(), tangent_values.data(), form_of(isotropic, one_tangent)},
+      begin,
+      end,
+      x,
+      y);
+  }
+
+  template <typename Number>
+  void
+  MatrixFreeStiffness<Number>::vmult(VectorOf<Number>       &destination,
+                                     const VectorOf<Number> &source) const
+  {
+    // Constrained unknowns count as zero; their values are put back below.
+    Number             *x       = const_cast<Number *>(source.begin());
+    const unsigned int  n_owned = 3 * space.n_owned_nodes();
+    std::vector<Number> kept;
+    for (const unsigned int unknown : fixed)
+      if (unknown < n_owned)
+        {
+          kept.push_back(x[unknown]);
+          x[unknown] = 0;
+        }
+    source.update_ghost_values_start();
+    Number *y = destination.begin();
+    std::fill(y, y + 3 * std::size_t(space.n_local_nodes()), Number(0));
+    add_forces(0, n_own_batches, x, y);
+    source.update_ghost_values_finish();
+    add_forces(n_own_batches, n_batches, x, y);
+    for (unsigned int i = 0; i < kept.size(); ++i)
+      {
+        x[fixed[i]] = kept[i];
+        y[fixed[i]] = diagonal[fixed[i] / 3][4 * (fixed[i] % 3)] * kept[i];
+      }
+    source.zero_out_ghost_values();
+    destination.zero_out_ghost_values();
+  }
+
+  template <typename Number>
+  VectorOf<Number>
+  MatrixFreeStiffness<Number>::right_hand_side(
+    const PrescribedDisplacement &prescribed, const std::vector<dealii::Tensor<1, 3>> &forces) const
+  {
+    VectorOf<Number> b(space.vector_layout());
+    if (!prescribed.is_homogeneous())
+      {
+        std::vector<Number> x(3 * std::size_t(space.n_local_nodes()), Number(0));
+        for (const unsigned int unknown : fixed)
+          x[unknown] = prescribed.values[space.field_node(unknown / 3)][unknown % 3];
+        add_forces(0, n_batches, x.data(), b.begin());
+        b.zero_out_ghost_values();
+      }
+    for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
+      for (unsigned int c = 0; c < 3; ++c)
+        {
+          const unsigned int field_node = space.field_node(node);
+          Number            &value      = b.local_element(3 * node + c);
+          value                         = prescribed.is_fixed(field_node, c)
+                                            ? Number(diagonal[node][4 * c] * prescribed.values[field_node][c])
+                                            : Number(forces[field_node][c]) - value;
+        }
+    return b;
+  }
+
+  template class MatrixFreeStiffness<double>;
+  template class MatrixFreeStiffness<float>;
+} // namespace tetradapt::mechanics
