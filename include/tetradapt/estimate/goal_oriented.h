@@ -14,8 +14,9 @@ namespace tetradapt::estimate
    * r(z) with the residual r of u_h, and with both corrections e_u, e_z to the next
    * degree (EnrichedProblem) it is r(z_h) + a(e_u, e_z): the first is what the solver
    * left, the second what the mesh lacks. Both corrections are known to about a tenth
-   * only; a(e_u, e_z) = r(e_z) + r_z(e_u) - a(e_u, e_z) is then known to a hundredth of
-   * the product of their norms.
+   * at first; a(e_u, e_z) = r(e_z) + r_z(e_u) - a(e_u, e_z) is then known to a hundredth of
+   * the product of their norms. Where the goal's error is not far above the product of what
+   * is missing in them, because its contributions cancel, they are made more accurate.
    *
    * global is that error, with its sign and in the goal's unit: value + global is the better
    * value. Cell K contributes a_K(e_u, e_z); where both happen to be orthogonal there, at
