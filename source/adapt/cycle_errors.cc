@@ -94,6 +94,16 @@ namespace tetradapt::adapt
             {
               known.global = record.estimate;
               known.source = ErrorEstimator::energy;
+              if (sources.reference->known_energy)
+                {
+                  // Extrapolated over the reference's own meshes: nearer than the finest.
+                  const auto sharper
+                    = estimate::error_from_known_energy(*sources.reference->known_energy,
+                                                        cycle.solution.energy,
+                                                        sources.drive);
+                  if (sharper.error)
+                    known.global = sharper.error;
+                }
             }
         }
       return known;

@@ -36,7 +36,7 @@ namespace tetradapt::adapt
     EstimateRecord
     to_record(const estimate::EstimatorTraits &traits,
               const estimate::Estimate        &estimate,
-              const double                     energy,
+              const double                     norm,
               const KnownError                &known)
     {
       EstimateRecord record;
@@ -45,20 +45,32 @@ namespace tetradapt::adapt
       record.global         = estimate.global;
       if (!traits.is_energy_norm)
         return record;
-      if (energy > 0.)
-        record.relative = estimate.global / std::sqrt(energy);
+      if (norm > 0.)
+        record.relative = estimate.global / norm;
       record.effectivity = estimate::effectivity(record.global, known.global);
       if (known.cells != nullptr && estimate.indicators.size() == known.cells->size())
         record.spread = spread_of_local_indices(estimate.indicators, *known.cells);
       return record;
     }
+
+    /** The norm that the record's relative error is of, so that curves of estimates and
+     * errors can be compared; that of the solution where there is none. */
+    double
+    norm_of_solution(const CycleRecord &record, const solve::StaticSolution &solution)
+    {
+      if (record.energy_error && record.relative_energy_error.value_or(0.) > 0.)
+        return *record.energy_error / *record.relative_energy_error;
+      return std::sqrt(std::max(0., solution.energy));
+    }
   } // namespace
 
   bool
-  needs_system(const scene::Scene &scene, const scene::Plan &plan)
+  any_estimator(const scene::Scene &scene,
+                const scene::Plan  &plan,
+                bool estimate::EstimatorTraits::*trait)
   {
     for (const ErrorEstimator which : wanted_estimators(scene, is_driven(plan)))
-      if (estimate::make_estimator(which)->traits().needs_system)
+      if (estimate::make_estimator(which)->traits().*trait)
         return true;
     return false;
   }
@@ -114,6 +126,7 @@ namespace tetradapt::adapt
   {
     using Clock                = std::chrono::steady_clock;
     const bool          driven = is_driven(sources.plan);
+    const double        norm   = norm_of_solution(record, cycle.solution);
     std::vector<double> indicators;
     for (const ErrorEstimator which : wanted_estimators(sources.scene, driven))
       {
@@ -128,8 +141,7 @@ namespace tetradapt::adapt
         if (estimate.missing)
           continue;
         const KnownError comparable = known.source == which ? KnownError() : known;
-        record.estimates.push_back(
-          to_record(estimator->traits(), estimate, cycle.solution.energy, comparable));
+        record.estimates.push_back(to_record(estimator->traits(), estimate, norm, comparable));
         record.estimates.back().which   = which;
         record.estimates.back().seconds = seconds;
       }

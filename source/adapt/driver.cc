@@ -44,7 +44,10 @@ namespace tetradapt::adapt
                  MeshDescription                describe_mesh)
     : scene(scene), plan(plan), communicator(communicator), log(log), timer(timer),
       observers(observers), describe_mesh(std::move(describe_mesh)),
-      drive(estimate::drive_of(scene)), keeps_system(needs_system(scene, plan)),
+      drive(estimate::drive_of(scene)),
+      keeps_system(any_estimator(scene, plan, &estimate::EstimatorTraits::needs_system)),
+      stops_early(scene.solver.stopping == scene::SolverParameters::Stopping::discretisation
+                  && !any_estimator(scene, plan, &estimate::EstimatorTraits::needs_equilibrium)),
       mesh_maker(scene, communicator, log)
   {
   }
@@ -59,6 +62,10 @@ namespace tetradapt::adapt
 
     make_initial_mesh(0);
     make_reference();
+    if (!stops_early && scene.solver.stopping == scene::SolverParameters::Stopping::discretisation)
+      log.info(
+        "Solver/Stopping = discretisation is not followed: an estimator needs the solution of "
+        "the discrete equations. Conjugate gradients go on to Solver/Tolerance.");
     StopDecision decision;
     for (unsigned int number = 0; !decision.stop(); ++number)
       {
@@ -147,7 +154,7 @@ namespace tetradapt::adapt
     {
       const auto                scope = timer.scope("solve");
       solve::StaticSystem::Stop stop;
-      if (scene.solver.stopping == scene::SolverParameters::Stopping::discretisation)
+      if (stops_early)
         stop.algebraic_error = scene.solver.algebraic_fraction * predicted_error;
       const auto system = std::make_shared<solve::StaticSystem>(
         scene, *materials, mesh, scene.degree, communicator, in_cycle(number));

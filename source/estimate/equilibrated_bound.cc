@@ -48,12 +48,14 @@ namespace tetradapt::estimate
 
   EquilibratedBound
   equilibrated_bound(const mesh::NodalField       &u_h,
+                     const mesh::NodalField       &galerkin,
                      const scene::Scene           &scene,
                      const mechanics::MaterialMap &materials,
-                     MPI_Comm                      communicator)
+                     MPI_Comm                      communicator,
+                     const double                  near)
   {
     const unsigned int       n_cells = u_h.mesh().n_cells();
-    const EquilibratedStress stress(u_h, scene, materials, communicator);
+    const EquilibratedStress stress(u_h, galerkin, scene, materials, communicator, near);
     EquilibratedBound        result;
     result.cell_energy.assign(n_cells, 0.);
     std::vector<double> loads(1, 0.);

@@ -5,7 +5,10 @@
 
 #include <deal.II/base/numbers.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <algorithm>
+#include <numeric>
 
 namespace tetradapt::estimate
 {
@@ -24,6 +27,26 @@ namespace tetradapt::estimate
       return {begins.begin(), begins.end()};
     }
 
+    /** Numbers the cells along Hilbert's curve through their centers. */
+    std::vector<unsigned int>
+    places_along_curve(const mesh::TetMesh &mesh)
+    {
+      std::vector<Point<3>> centers(mesh.n_cells());
+      for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
+        for (const unsigned int point : mesh.cells[cell])
+          centers[cell] += 0.25 * Tensor<1, 3>(mesh.points[point]);
+      constexpr int bits = 16; // a direction
+      const auto    keys = dealii::Utilities::inverse_Hilbert_space_filling_curve(centers, bits);
+      std::vector<unsigned int> order(mesh.n_cells()), places(mesh.n_cells());
+      std::iota(order.begin(), order.end(), 0);
+      std::sort(order.begin(), order.end(), [&](unsigned int a, unsigned int b) {
+        return keys[a] < keys[b] || (keys[a] == keys[b] && a < b);
+      });
+      for (unsigned int i = 0; i < order.size(); ++i)
+        places[order[i]] = i;
+      return places;
+    }
+
     /** Improves the tractions part by part. */
     class Improvement
     {
@@ -35,7 +58,8 @@ namespace tetradapt::estimate
                   MPI_Comm             communicator)
         : mesh(mesh), faces(faces), moves(moves), relaxation(mesh, faces, moves, states),
           communicator(communicator), face_cells(faces.n_faces, {{none, none}}),
-          part(mesh.n_cells(), none), face_done(faces.n_faces, 0), ring_done(moves.n_rings(), 0)
+          part(mesh.n_cells(), none), place(places_along_curve(mesh)), face_done(faces.n_faces, 0),
+          ring_done(moves.n_rings(), 0)
       {
         for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
           for (const auto &side : faces.sides[cell])
@@ -73,10 +97,12 @@ namespace tetradapt::estimate
 
     private:
       void
-      relax_parts(const std::vector<unsigned int> &cells,
-                  const bool                       here,
-                  std::vector<double>             &moments)
+      relax_parts(std::vector<unsigned int> cells, const bool here, std::vector<double> &moments)
       {
+        // Compact parts have small borders, over which nothing relaxes.
+        std::sort(cells.begin(), cells.end(), [&](unsigned int a, unsigned int b) {
+          return place[a] < place[b];
+        });
         const std::size_t n
           = (cells.size() + TractionRelaxation::most_cells - 1) / TractionRelaxation::most_cells;
         for (std::size_t p = 0; p < n; ++p, ++n_parts)
@@ -151,7 +177,8 @@ namespace tetradapt::estimate
       TractionRelaxation                       relaxation;
       MPI_Comm                                 communicator;
       std::vector<std::array<unsigned int, 2>> face_cells;
-      std::vector<unsigned int>                part; ///< of a cell in this step; or none
+      std::vector<unsigned int>                part;  ///< of a cell in this step; or none
+      std::vector<unsigned int>                place; ///< of a cell, see places_along_curve()
       std::vector<char>                        face_done, ring_done;
       unsigned int                             n_parts = 0;
     };

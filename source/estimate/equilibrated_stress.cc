@@ -11,21 +11,44 @@
 namespace tetradapt::estimate
 {
   EquilibratedStress::EquilibratedStress(const mesh::NodalField       &u_h,
+                                         const mesh::NodalField       &galerkin,
                                          const scene::Scene           &scene,
                                          const mechanics::MaterialMap &materials,
-                                         MPI_Comm                      communicator)
+                                         MPI_Comm                      communicator,
+                                         const double                  near)
     : states(u_h, scene, materials), faces(u_h.mesh()), loads(face_loads(scene, u_h.mesh())),
       edges(u_h.degree() == 2 ? u_h.shared_edges()
                               : std::make_shared<mesh::EdgeTable>(mesh::build_edges(u_h.mesh()))),
       mesh(u_h.mesh())
   {
+    std::unique_ptr<CellStates> other_states;
+    if (&galerkin != &u_h)
+      other_states = std::make_unique<CellStates>(galerkin, scene, materials);
     compare::together(communicator, [&] {
-      FaceTractions tractions(
-        u_h, states, faces, loads, compare::own_slice(mesh.n_cells(), communicator));
+      FaceTractions tractions(galerkin,
+                              other_states == nullptr ? states : *other_states,
+                              faces,
+                              loads,
+                              compare::own_slice(mesh.n_cells(), communicator));
       moments = std::move(tractions.moments);
     });
+    if (near > 0. && is_within(near, communicator))
+      return;
     const TractionMoves moves(mesh, *edges, faces, loads);
     improve_tractions(mesh, faces, moves, states, communicator, moments);
+  }
+
+  bool
+  EquilibratedStress::is_within(const double distance, MPI_Comm communicator)
+  {
+    std::vector<double> sum(1, 0.);
+    compare::together(communicator, [&] {
+      const auto own = compare::own_slice(mesh.n_cells(), communicator);
+      for (const double energy : energies(own.begin, own.end))
+        sum[0] += energy;
+    });
+    compare::sum_over_ranks(sum, communicator);
+    return sum[0] <= distance * distance;
   }
 
   std::vector<double>

@@ -27,10 +27,11 @@ namespace tetradapt::adapt
                  const KnownError   &known,
                  CycleRecord        &record);
 
-  /** Whether an estimator of the scene solves with the solution's system again, so
-   * that it must be kept. */
+  /** Whether one of the scene's estimators has @p trait: EstimatorTraits::needs_system, for one. */
   bool
-  needs_system(const scene::Scene &scene, const scene::Plan &plan);
+  any_estimator(const scene::Scene &scene,
+                const scene::Plan  &plan,
+                bool estimate::EstimatorTraits::*trait);
 
   /** Evaluates the goals into record.goals, with what the estimator 'goal' said of
    * its own. To be called after run_estimators(). Collective. */

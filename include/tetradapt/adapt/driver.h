@@ -121,6 +121,7 @@ namespace tetradapt::adapt
     MeshDescription                describe_mesh;
     estimate::Drive                drive;
     bool                           keeps_system; ///< an estimator solves with it again
+    bool                           stops_early;  ///< the solver, by the error of the mesh
 
     MeshMaker                                         mesh_maker;
     NewMesh                                           current; ///< what is known of the mesh

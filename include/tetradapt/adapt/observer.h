@@ -20,7 +20,7 @@ namespace tetradapt::adapt
     scene::ErrorEstimator which          = scene::ErrorEstimator::spr;
     bool                  is_energy_norm = true;
     double                global         = 0.; ///< in the estimator's unit
-    std::optional<double> relative;    ///< over the energy norm of the solution, for an energy norm
+    std::optional<double> relative;    ///< an energy norm over that of the exact, else the own solution
     std::optional<double> effectivity; ///< over the true error, where that is known
     /** Of the local indices eta_K / e_K, where an exact displacement is known: the
      * standard deviation of their natural logarithms, each weighted by e_K^2. 0: each cell's

@@ -24,8 +24,8 @@ namespace tetradapt::estimate
   };
 
   /**
-   * Bounds the error of a displacement u_h of degree 1 or 2, a Galerkin solution of
-   * @p scene, by a stress that is in equilibrium with its loads at every point.
+   * Bounds the error of a displacement u_h of degree 1 or 2 by a stress that is in
+   * equilibrium with the loads of @p scene at every point.
    *
    * Prager and Synge (Quart. Appl. Math. 5, 1947): a symmetric stress s with div s + f
    * = 0 and s n = t where tractions are given satisfies, with the energy norms of
@@ -33,28 +33,33 @@ namespace tetradapt::estimate
    *   |||u - u_h|||^2 + ||stress - s||^2 = ||s - stress_h||^2.
    * No unknown constant enters, whatever the mesh, nu < 0.5 and the contrast of
    * materials. How the stress is made: FaceTractions (tractions in equilibrium on
-   * each cell), TractionRelaxation (which lowers the energy to little above the least),
-   * EquilibratedElement (the stress in a cell).
+   * each cell, from @p galerkin), TractionRelaxation (which lowers the energy to little above the
+   * least), EquilibratedElement (the stress in a cell).
    *
    * Where the loads are not in the space (body forces beyond quadratic, tractions
    * beyond quadratic polynomials in a cell), load_oscillation() is added; for
    * prescribed displacements that u_h has only at nodes, see support_oscillation();
    * with w such a displacement, |||u - u_h|||^2 <= ||s - stress_h||^2 + |||w|||^2.
    * Integrals of loads are those of the solution, by quadrature. The error of an
-   * iterative solver is not included: it enters like the solver's tolerance.
+   * iterative solver is not included: the class Equilibrated adds it.
    *
-   * Collective. Takes one to three times as long as a solution of degree 2, seven to nine times
-   * one of degree 1, and 21 kB a cell, for at most
-   * TractionRelaxation::most_cells cells at a time.
+   * Collective. Takes one to three times as long as a solution of degree 2, and 21 kB a cell,
+   * for at most TractionRelaxation::most_cells cells at a time.
    *
+   * @param galerkin the solution of the discrete equations that the stress is made from: u_h
+   *        itself, or one of a higher degree on the same mesh, whose stress is nearer
+   *        to the exact one.
+   * @param near a bound that is sharp enough: with a smaller one relaxation is left out.
    * @throws core::InputError if a force passes between parts of the body that touch in
    *         a point or along an edge only: there is no such stress then.
    */
   EquilibratedBound
   equilibrated_bound(const mesh::NodalField       &u_h,
+                     const mesh::NodalField       &galerkin,
                      const scene::Scene           &scene,
                      const mechanics::MaterialMap &materials,
-                     MPI_Comm                      communicator);
+                     MPI_Comm                      communicator,
+                     double                        near = 0.);
 } // namespace tetradapt::estimate
 
 #endif

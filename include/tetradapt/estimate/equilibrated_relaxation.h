@@ -26,8 +26,8 @@ namespace tetradapt::estimate
                        const CellStates    &states);
 
     /** Sweeps end when one lowers the energy (a square) by less than this part of it. */
-    static constexpr double       least_fall  = .08;
-    static constexpr unsigned int most_sweeps = 12;
+    static constexpr double       least_fall  = .04;
+    static constexpr unsigned int most_sweeps = 40;
 
     /** Changes @p moments (see FaceTractions) of the faces of @p cells where the
      * moves are known to concern these only. */

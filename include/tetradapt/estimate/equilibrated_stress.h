@@ -11,17 +11,21 @@
 
 namespace tetradapt::estimate
 {
-  /** A stress in equilibrium with the loads of a scene, near that of a Galerkin
-   * solution; equilibrated_bound() says how near and what for. */
+  /** A stress in equilibrium with the loads of a scene, near that of a displacement;
+   * equilibrated_bound() says how near and what for. */
   class EquilibratedStress
   {
   public:
     /** Makes the stress; see equilibrated_bound(). The arguments must outlive this
-     * object. Collective. */
+     * object. Collective.
+     * @param near energy norm of a distance to u_h's stress that is near enough; what is
+     *        farther is relaxed. */
     EquilibratedStress(const mesh::NodalField       &u_h,
+                       const mesh::NodalField       &galerkin,
                        const scene::Scene           &scene,
                        const mechanics::MaterialMap &materials,
-                       MPI_Comm                      communicator);
+                       MPI_Comm                      communicator,
+                       double                        near = 0.);
 
     /** Energies of its distance from the solution's stress, without what
      * CellState::thermal_oscillation is about, for the cells from @p first to
@@ -48,6 +52,9 @@ namespace tetradapt::estimate
     std::vector<double>                    moments; ///< see FaceTractions
 
   private:
+    bool
+    is_within(double distance, MPI_Comm communicator);
+
     const mesh::TetMesh &mesh;
   };
 } // namespace tetradapt::estimate

@@ -51,6 +51,9 @@ namespace tetradapt::estimate
     bool        needs_exact_displacement = false;
     /** Whether it solves with the solution's system again (a dual problem). */
     bool needs_system = false;
+    /** Whether it counts on the solution to fulfil the discrete equations, so that the
+     * solver must not end with an error that the mesh's alone would hide. */
+    bool needs_equilibrium = false;
     /** Whether global is an energy norm, and indicators its parts: the root of the
      * sum of their squares where the class does not say otherwise. */
     bool is_energy_norm = true;
