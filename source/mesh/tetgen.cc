@@ -6,6 +6,7 @@
 #include "tetradapt/geometry/surface_intersections.h"
 #include "tetradapt/mesh/mesh_checks.h"
 #include "tetradapt/mesh/tetgen_demand.h"
+#include "tetradapt/mesh/tetgen_frame.h"
 #include "tetradapt/mesh/tetgen_process.h"
 #include "tetradapt/mesh/tetgen_request.h"
 #include "tetradapt/mesh/tetgen_result.h"
@@ -156,11 +157,16 @@ namespace tetradapt::mesh
                             parameters.memory_limit,
                             plc.name);
 
-    TetgenRequest request = make_request(plc, sizing);
-    request.switches
-      = make_switches(parameters, request, sizing.max_volume, parameters.steiner_points);
-    const TetgenReply reply
+    TetgenRequest     request = make_request(plc, sizing);
+    const TetgenFrame frame(request.points);
+    frame.enter(request);
+    request.switches = make_switches(parameters,
+                                     request,
+                                     frame.volume(sizing.max_volume),
+                                     parameters.steiner_points);
+    TetgenReply reply
       = run_tetgen(request, {parameters.time_limit, parameters.memory_limit}, plc.name);
+    frame.leave(reply);
 
     TetMesh      mesh   = mesh_from_reply(reply, plc.patches, plc.name);
     Census       before = expected_census(surface, plc);
@@ -207,11 +213,13 @@ namespace tetradapt::mesh
                                  ? -1
                                  : parameters.steiner_points + static_cast<long>(n_inserted);
     request.switches         = make_switches(parameters, request, 0., cap);
-    const TetgenReply reply
-      = run_tetgen(request, {parameters.time_limit, parameters.memory_limit}, what);
+    const TetgenFrame frame(request.points);
+    frame.enter(request);
+    TetgenReply reply = run_tetgen(request, {parameters.time_limit, parameters.memory_limit}, what);
     if (reply.points.size() < request.points.size()
         || !std::equal(request.points.begin(), request.points.end(), reply.points.begin()))
       throw NumericalError("TetGen did not keep the points of the mesh that it refined.");
+    frame.leave(reply);
 
     TetMesh refined      = mesh_from_reply(reply, mesh.patches, what);
     refined.region_names = mesh.region_names;

@@ -8,13 +8,21 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace tetradapt::mesh
 {
   namespace
   {
-    /** Faces that meet at less than this angle (radians) lie in one plane. */
+    /** Faces that meet at less than this angle (radians) lie in one plane, if their
+     * coordinates are exact. */
     constexpr double flat_angle = 1e-8;
+
+    /** Faces that meet at more than this angle do not, whatever the rounding. */
+    constexpr double bent_angle = 1e-3;
+
+    /** By how many roundings of the largest coordinate a point may miss its plane. */
+    constexpr double roundings = 4.;
 
     /** A new mesh's facets at more than this angle (degrees) become one plane: the
      * facets of a flat wall in single precision do, while TetGen's own value, 179.9,
@@ -58,14 +66,34 @@ namespace tetradapt::mesh
       return sizes;
     }
 
-    /** The angle by which two faces that share the edge a-b are bent. */
-    double
-    bend(const Point<3> &a, const Point<3> &b, const Point<3> &c, const Point<3> &d)
+    /** Whether two faces that share the edge a-b lie in one plane.
+     *
+     * @param rounding by how much coordinates may be off: where it is large beside the
+     *        faces, as in a body far from the origin, a flat wall looks bent. */
+    bool
+    is_flat(const Point<3> &a,
+            const Point<3> &b,
+            const Point<3> &c,
+            const Point<3> &d,
+            const double    rounding)
     {
       const Tensor<1, 3> edge  = (b - a) / (b - a).norm();
       const Tensor<1, 3> left  = (c - a) - ((c - a) * edge) * edge;
       const Tensor<1, 3> right = (d - a) - ((d - a) * edge) * edge;
-      return std::atan2(dealii::cross_product_3d(left, right).norm(), -(left * right));
+      const double bend = std::atan2(dealii::cross_product_3d(left, right).norm(), -(left * right));
+      return bend
+             < std::min(bent_angle, flat_angle + rounding * (1. / left.norm() + 1. / right.norm()));
+    }
+
+    /** Rounding of the largest coordinate, times roundings. */
+    double
+    rounding_of(const TetMesh &mesh)
+    {
+      double largest = 0.;
+      for (const auto &point : mesh.points)
+        for (unsigned int d = 0; d < 3; ++d)
+          largest = std::max(largest, std::abs(point[d]));
+      return roundings * std::numeric_limits<double>::epsilon() * largest;
     }
 
     void
@@ -118,18 +146,19 @@ namespace tetradapt::mesh
     void
     add_segments(TetgenRequest &request, const TetMesh &mesh)
     {
-      const auto edges = sorted_edges(request);
+      const auto   edges    = sorted_edges(request);
+      const double rounding = rounding_of(mesh);
       for (std::size_t i = 0, next; i < edges.size(); i = next)
         {
           next = i + 1;
           while (next < edges.size() && !(edges[i] < edges[next]))
             ++next;
           if (next == i + 2 && edges[i].marker == edges[i + 1].marker
-              && bend(mesh.points[edges[i].first],
-                      mesh.points[edges[i].second],
-                      mesh.points[edges[i].opposite],
-                      mesh.points[edges[i + 1].opposite])
-                   < flat_angle)
+              && is_flat(mesh.points[edges[i].first],
+                         mesh.points[edges[i].second],
+                         mesh.points[edges[i].opposite],
+                         mesh.points[edges[i + 1].opposite],
+                         rounding))
             continue;
           request.edges.push_back(edges[i].first);
           request.edges.push_back(edges[i].second);
