@@ -27,6 +27,9 @@ namespace tetradapt::solve
         parameters.set("smoother: Chebyshev alpha", 20.);
         parameters.set("coarse: max size", 1000);
         parameters.set("coarse: type", "Amesos-KLU");
+        // ML's own value is not relative to the matrix: it changes those of small entries.
+        parameters.set("coarse: add to diag", 1e-14 * point_matrix->NormInf());
+        parameters.set("ML validate parameter list", false); // does not know that name
         parameters.set("aggregation: type", "Uncoupled");
         parameters.set("null space: type", "pre-computed");
         parameters.set("null space: dimension", modes->NumVectors());

@@ -107,7 +107,10 @@ namespace tetradapt::solve
         matrix.vmult(product, direction);
         const double alpha = energy / (direction * product);
         x.add(alpha, direction);
-        result.residual = std::sqrt(residual.add_and_dot(-alpha, product, residual));
+        const double last = result.residual;
+        result.residual   = std::sqrt(residual.add_and_dot(-alpha, product, residual));
+        // Its own would take another application of the preconditioner.
+        result.preconditioned_residual = std::sqrt(energy) * (result.residual / last);
         ++result.iterations;
         estimate.add(alpha * energy);
         result.converged = is_done(limits, result.residual, estimate);
@@ -117,6 +120,12 @@ namespace tetradapt::solve
              << ", residual over tolerance " << result.residual / limits.residual;
         log.progress(text.str());
       }
+    if (result.iterations == 0 && result.residual > 0.)
+      {
+        preconditioner.vmult(preconditioned, residual);
+        result.preconditioned_residual = std::sqrt(std::max(0., residual * preconditioned));
+      }
+    result.gained                 = estimate.gained();
     result.error                  = std::sqrt(estimate.squared_error().value_or(0.));
     result.iterations_to_residual = foretell(result, limits, estimate);
     return result;

@@ -107,12 +107,18 @@ namespace tetradapt::solve
     auto &values    = solution.displacement->values;
 
     Vector     x = data->vector_of(start == nullptr ? nullptr : &start->values, 1.);
-    const auto result
-      = data->solver->solve(data->solver->right_hand_side(data->forces),
-                            {stop.residual, stop.algebraic_error, stop.relative_error},
-                            "The loads",
-                            x);
-    solution.iterations              = result.iterations;
+    LinearStop linear_stop{stop.residual, stop.algebraic_error, stop.relative_error, {}};
+    if (!data->prescribed.is_homogeneous())
+      linear_stop.energy = [&](const Vector &iterate) {
+        space.gather(iterate, values);
+        return compute_energies(*solution.displacement, data->materials, space.communicator())
+          .energy;
+      };
+    const auto result   = data->solver->solve(data->solver->right_hand_side(data->forces),
+                                            linear_stop,
+                                            "The loads",
+                                            x);
+    solution.iterations = result.iterations;
     solution.iterations_to_tolerance = result.iterations_to_residual;
     solution.algebraic_error         = result.algebraic_error;
     solution.solver                  = result.description;
@@ -135,7 +141,7 @@ namespace tetradapt::solve
     Vector       x     = data->vector_of(nullptr, 0.);
     const Vector b     = data->vector_of(&forces, 0.);
     data->solver->solve(b,
-                        {stop.residual, stop.algebraic_error, stop.relative_error},
+                        {stop.residual, stop.algebraic_error, stop.relative_error, {}},
                         "The weights of the goal",
                         x);
     data->space->gather(x, field->values);

@@ -76,6 +76,10 @@ namespace tetradapt::solve
     unsigned int iterations = 0;
     double       residual   = 0.; ///< l2 norm
     double       error      = 0.; ///< estimated energy norm; 0: unknown
+    /** Norm of the residual by the preconditioner, the root of (r, M^-1 r), about: that of
+     * the error in the energy norm, as far as the preconditioner is an inverse. */
+    double preconditioned_residual = 0.;
+    double gained                  = 0.; ///< square of the energy norm of what was added to x
     /** How many iterations the residual needs in all: those made, where it was
      * reached, else continued with the mean rate of the error so far. */
     unsigned int iterations_to_residual = 0;

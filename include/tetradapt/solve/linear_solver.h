@@ -7,7 +7,9 @@
 #include "tetradapt/scene/study_parameters.h"
 #include "tetradapt/solve/conjugate_gradients.h"
 #include "tetradapt/solve/direct_solver.h"
+
 #include "tetradapt/solve/preconditioners.h"
+#include <functional>
 
 namespace tetradapt::solve
 {
@@ -26,6 +28,10 @@ namespace tetradapt::solve
     double residual        = 0.; ///< relative to the load; 0: the parameters' tolerance
     double algebraic_error = 0.; ///< energy norm of the error; 0: does not count
     double relative_error  = 0.; ///< the same, relative to what has been gained; 0: does not
+    /** The square of the energy norm of @p x with what is prescribed, to which the error is
+     * compared where a small residual may hide a large one; not given: (b, x), which it is
+     * where all that is prescribed is zero. */
+    std::function<double(const Vector &x)> energy;
   };
 
   struct LinearResult
@@ -86,6 +92,14 @@ namespace tetradapt::solve
     load_norm(const Vector &right_hand_side) const;
     LinearResult
     iterate(const Vector &right_hand_side, const LinearStop &stop, double norm, Vector &x) const;
+    /** The error in the energy norm, relative to the solution, that the residual may hide. */
+    double
+    hidden_error(const IterationResult &result,
+                 const LinearStop      &stop,
+                 const Vector          &right_hand_side,
+                 const Vector          &x) const;
+    [[noreturn]] void
+    fail(unsigned int iterations, double excess) const;
 
     const mechanics::DisplacementSpace                     &space;
     const mechanics::PrescribedDisplacement                &prescribed;
