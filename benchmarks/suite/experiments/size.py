@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""Cost and memory from 10^4 to 3 x 10^6 unknowns, uniform meshes of the cantilever."""
+from suite import plots
+from suite.bodies import CANTILEVER as body
+
+# (quick, full) fineness by degree.
+FINENESS = {1: ((6, 12, 20), (6, 14, 21, 30, 46)), 2: ((3, 6, 9), (3, 6, 9, 15, 23))}
+
+
+def run(session):
+    rows = []
+    jobs = []
+    for degree, choices in FINENESS.items():
+        jobs += [session.tetradapt.uniform(session.output, body, n, degree)
+                 for n in choices[0 if session.quick else 1]]
+    for case in session.measure(jobs, spend=8 if session.quick else 15):
+        dofs = case.result["dofs"]
+        rows.append({**case.row(), "dofs": dofs, "iterations": case.result["iterations"],
+                     "solve_cpu_seconds": case.value("cpu_solve"),
+                     "whole_microseconds_per_dof": f"{1e6 * case.median('cpu') / dofs:.4g}",
+                     "solve_microseconds_per_dof": f"{1e6 * case.value('cpu_solve') / dofs:.4g}",
+                     "kilobytes_per_dof": f"{1e3 * case.median('memory') / dofs:.4g}"})
+    session.write("size", rows)
+    series = {}
+    for row in rows:
+        name = f"P{row['degree']}"
+        for key, text in (("whole_microseconds_per_dof", "whole process, µs"),
+                          ("solve_microseconds_per_dof", "solve alone, µs"),
+                          ("kilobytes_per_dof", "memory, kB")):
+            series.setdefault(f"{text}, {name}", []).append((row["dofs"], float(row[key])))
+    plots.lines(session.path("size.svg"), series, "Tetradapt: cost of one unknown", "unknowns",
+                "per unknown")
