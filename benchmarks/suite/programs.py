@@ -18,6 +18,8 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
 SCENES = os.path.join(ROOT, "prm", "benchmarks")
 SYSTEM_PYTHON = "/usr/bin/python3"
+# Conjugate gradients to 1e-8 as in the other programs; a mesh alone has no error to stop by.
+SOLVE_ONCE = {"Adaptivity/Strategy": "none", "Solver/Stopping": "residual"}
 
 
 @dataclasses.dataclass
@@ -136,19 +138,23 @@ class Tetradapt:
         return Job(self.name, case, body.name, degree, command, output,
                    lambda text: read_run(folder))
 
-    def uniform(self, output, body, n, degree, ranks=1, settings=()):
-        """One mesh of bricks, made by the program itself; of blocks it reads the file."""
+    def uniform(self, output, body, n, degree, ranks=1):
+        """One uniform mesh, solved to 1e-8: bricks made by the program itself, or the file of blocks."""
         if body.name == "cantilever":
             mesh = {"Mesh/Type": "bricks", "Mesh/Size": "", "Mesh/Cells": f"{10 * n}x{n}x{n}"}
         else:
             mesh = self.shared_mesh(output, body, n)
         case = f"uniform {n}" + (f", {ranks} ranks" if ranks > 1 else "")
-        return self.job(output, body, case, degree,
-                        {**mesh, "Adaptivity/Strategy": "none", **dict(settings)}, ranks)
+        return self.job(output, body, case, degree, {**mesh, **SOLVE_ONCE}, ranks)
+
+    def shared(self, output, body, n, degree):
+        """The same from the file that all programs share."""
+        return self.job(output, body, f"file {n}", degree,
+                        {**self.shared_mesh(output, body, n), **SOLVE_ONCE})
 
     @staticmethod
     def shared_mesh(output, body, n):
-        return {"Mesh/Type": "file", "Mesh/Files": meshes(output, body, n) + ".msh"}
+        return {"Mesh/Type": "file", "Mesh/Size": "", "Mesh/Files": meshes(output, body, n) + ".msh"}
 
 
 def read_run(folder):

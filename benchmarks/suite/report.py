@@ -5,7 +5,7 @@ import os
 import shutil
 
 PLOTS = {"error": ("error_cantilever.svg", "error_l_shape.svg"), "solve": ("solve.svg",),
-         "size": ("size.svg",), "stages": ("stages.svg",)}
+         "size": ("size.svg", "memory.svg"), "stages": ("stages.svg",)}
 TABLES = {"summary": ("summary",), "agreement": ("agreement",), "solve": ("solve",), "size": ("size",),
           "error": ("levels_cantilever", "levels_l_shape"), "ranks": ("ranks",),
           "stages": ("stages",), "startup": ("startup",), "skipping": ("skipping",)}

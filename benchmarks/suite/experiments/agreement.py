@@ -19,9 +19,7 @@ def run(session):
     for body in BODIES.values():
         n = {"cantilever": 3, "l_shape": 4}[body.name]
         for degree in (1, 2):
-            shared = {**session.tetradapt.shared_mesh(session.output, body, n),
-                      "Adaptivity/Strategy": "none"}
-            jobs.append(session.tetradapt.job(session.output, body, f"file {n}", degree, shared))
+            jobs.append(session.tetradapt.shared(session.output, body, n, degree))
             jobs += [program.job(session.output, body, n, degree) for program in session.others]
     rows, good = [], True
     cases = session.measure(jobs, repeats=1)

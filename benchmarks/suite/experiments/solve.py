@@ -10,8 +10,7 @@ from suite.bodies import CANTILEVER as body
 
 def run(session):
     n = 6 if session.quick else 9
-    shared = {**session.tetradapt.shared_mesh(session.output, body, n), "Adaptivity/Strategy": "none"}
-    jobs = [session.tetradapt.job(session.output, body, f"file {n}", 2, shared)]
+    jobs = [session.tetradapt.shared(session.output, body, n, 2)]
     jobs += [program.job(session.output, body, n, 2) for program in session.others]
     cases = session.measure(jobs)
     product = product_seconds(session, n)
