@@ -7,7 +7,7 @@ import types
 from suite.bodies import BODIES
 
 ESTIMATORS = "spr, residual, averaging, interpolation, equilibrated, degree extrapolation"
-REFERENCE = {"Reference/Type": "hexahedra", "Reference/Tolerance": 0.005, "Reference/Cache": "no"}
+REFERENCE = {"Reference/Type": "hexahedra", "Reference/Tolerance": 0.0025, "Reference/Cache": "no"}
 OUTPUT = {"Output/VTU": "yes", "Output/Stress": "yes", "Output/Plots": "yes",
           "Output/Size field": "yes"}
 # What a run can be made to do that the scene does not need.
@@ -52,7 +52,7 @@ OF_QUICKSTART = {
 
 def run(session):
     rows = []
-    base = {"Adaptivity/Driver": "spr", "Adaptivity/Tolerance": 0.02}
+    base = {"Adaptivity/Driver": "spr", "Adaptivity/Tolerance": 0.01}
     for body in BODIES.values():
         rows += compare(session, body, 2, base, FORCED)
     rows += compare(session, QUICKSTART, 1, {}, OF_QUICKSTART)

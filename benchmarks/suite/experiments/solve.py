@@ -12,7 +12,7 @@ def run(session):
     n = 6 if session.quick else 9
     jobs = [session.tetradapt.shared(session.output, body, n, 2)]
     jobs += [program.job(session.output, body, n, 2) for program in session.others]
-    cases = session.measure(jobs)
+    cases = session.measure(jobs, spend=8 if session.quick else 20)
     product = product_seconds(session, n)
     ours = next(c for c in cases if c.job.program == "Tetradapt")
     rows = []

@@ -23,7 +23,9 @@ def run(session):
         row = {**case.row(), "dofs": case.result["dofs"], "cycles": case.result["cycles"]}
         row.update({f"cpu_{stage}": f"{value:.3g}" for stage, value in parts.items()})
         row["cpu_start_and_end"] = f"{max(0., case.median('cpu') - total):.3g}"
-        row["all_but_solve_percent"] = f"{100 * (1 - parts['solve'] / total):.3g}"
+        rest = sum(parts.values()) - parts["solve"]
+        row["all_but_solve_percent_of_run"] = f"{100 * rest / case.median('cpu'):.3g}"
+        row["percent_of_stages"] = f"{100 * rest / total:.3g}"
         rows.append(row)
     session.write("stages", rows)
     names = [f"cpu_{stage}" for stage in STAGES if stage != "other"] + ["cpu_start_and_end"]

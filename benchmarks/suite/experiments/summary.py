@@ -11,13 +11,14 @@ def run(session):
         {"what": what, "measured": measured, "wanted": wanted, "met": met} for
         what, measured, wanted, met in rows])
     for what, measured, wanted, met in rows:
-        session.say(f"  {what}: {measured} (wanted: {wanted}) {'' if met == 'yes' else met.upper()}")
+        session.say(f"  {what}: {measured} (wanted: {wanted}) {met.upper() if met == 'no' else ''}")
 
 
-def bar(what, value, wanted, at_least, form="{:.3g}", mark=""):
+def bar(what, value, wanted, at_least, mark="", counts=True):
+    """One row. counts: whether the sizes are those that the bar is about; not in quick sessions."""
     met = value >= wanted if at_least else value <= wanted
     sign = "at least" if at_least else "at most"
-    return what, mark + form.format(value), f"{sign} {wanted:g}", "yes" if met else "no"
+    return what, f"{mark}{value:.3g}", f"{sign} {wanted:g}", ("yes" if met else "no") if counts else "-"
 
 
 def solve_bars(session):
@@ -25,20 +26,20 @@ def solve_bars(session):
     if not rows:
         return
     ours = next(r for r in rows if r["program"] == "Tetradapt")
-    dofs = ours["dofs"]
+    dofs, full = ours["dofs"], int(ours["dofs"]) > 150000
     if ours.get("products_solve"):
         yield bar(f"P2, {dofs} unknowns: set-up and solve, in products with the assembled matrix",
-                  float(ours["products_solve"]), 60, False)
+                  float(ours["products_solve"]), 60, False, counts=full)
     for family, wanted in (("CalculiX", 10), ("FEniCSx", 4)):
         best = [float(r["cpu_over_tetradapt"]) for r in rows if r["program"].startswith(family)]
         if best:
             yield bar(f"P2, {dofs} unknowns: CPU of {family}'s best solver over Tetradapt's",
-                      min(best), wanted, True)
+                      min(best), wanted, True, counts=full)
     memory = {r["program"]: float(r["memory_over_tetradapt"]) for r in rows if r is not ours}
     if memory:
         least = min(memory, key=memory.get)
         yield bar(f"P2, {dofs} unknowns: least memory of the others ({least}) over Tetradapt's",
-                  memory[least], 1, True)
+                  memory[least], 1, True, counts=full)
 
 
 def size_bars(session):
@@ -84,13 +85,14 @@ def fastest(found, chosen):
 def stage_bars(session):
     rows = session.read("stages")
     if rows:
-        most = max(rows, key=lambda r: float(r["all_but_solve_percent"]))
-        yield bar(f"adaptive runs: all but the solve, % ({most['body']} {most['case']})",
-                  float(most["all_but_solve_percent"]), 50, False)
+        most = max(rows, key=lambda r: float(r["all_but_solve_percent_of_run"]))
+        yield bar(f"adaptive runs: all stages but the solve, % of the run ({most['body']} "
+                  f"{most['case'].split(' ', 1)[1]}; without start-up {most['percent_of_stages']} %)",
+                  float(most["all_but_solve_percent_of_run"]), 50, False)
 
 
 def rank_bars(session):
     rows = session.read("ranks")
     if len(rows) == 2:
         yield bar(f"2 ranks, {rows[1]['dofs']} unknowns: solve stage faster by",
-                  float(rows[1]["solve_wall_faster"]), 1.7, True)
+                  float(rows[1]["solve_wall_faster"]), 1.7, True, counts=int(rows[1]["dofs"]) > 900000)
