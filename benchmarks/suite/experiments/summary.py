@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""The bars of the project beside what the tables of this session say."""
+"""What was wanted, and what was measured."""
 from suite import levels
 from suite.bodies import BODIES
 
