@@ -1,21 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "stiffness_kernel.h"
 
-#include <cstddef>
+#include "tetradapt/core/clones.h"
 
-// The loader chooses among the clones of a function where it can (glibc on x86-64).
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && defined(__GLIBC__)
-#define TETRADAPT_CLONES                                                                           \
-  __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
-#else
-#define TETRADAPT_CLONES
-#endif
-// What the clones call must become part of them.
-#if defined(__GNUC__)
-#define TETRADAPT_INLINE inline __attribute__((always_inline))
-#else
-#define TETRADAPT_INLINE inline
-#endif
+#include <cstddef>
 
 namespace tetradapt::mechanics
 {

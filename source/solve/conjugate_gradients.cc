@@ -105,7 +105,11 @@ namespace tetradapt::solve
         else
           direction.sadd(energy / before, 1., preconditioned);
         matrix.vmult(product, direction);
-        const double alpha = energy / (direction * product);
+        const double curvature = direction * product;
+        result.broke_down      = !(energy > 0. && curvature > 0.);
+        if (result.broke_down)
+          break;
+        const double alpha = energy / curvature;
         x.add(alpha, direction);
         const double last = result.residual;
         result.residual   = std::sqrt(residual.add_and_dot(-alpha, product, residual));

@@ -180,7 +180,7 @@ namespace tetradapt::solve
         parameters.set("smoother: Chebyshev alpha", 20.);
         parameters.set("coarse: max size", 1000);
         parameters.set("coarse: type", "Amesos-KLU");
-        parameters.set("coarse: add to diag", 1e-14 * matrix->NormInf()); // as in amg.cc
+        parameters.set("coarse: add to diag", 1e-14 * matrix->NormInf());
         parameters.set("ML validate parameter list", false);
         parameters.set("aggregation: type", "Uncoupled");
         parameters.set("null space: type", "pre-computed");

@@ -5,6 +5,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -18,6 +19,9 @@ namespace tetradapt::solve
     /** Least energy of a solution by that of what was added to the first iterate. */
     constexpr double least_energy = 1e-12;
 
+    /** Iterations in vain after which a preconditioner in single precision is suspected. */
+    constexpr unsigned int patience = 200;
+
     bool
     is_direct(const scene::SolverParameters &parameters, unsigned long n_dofs)
     {
@@ -30,7 +34,8 @@ namespace tetradapt::solve
   LinearSolver::LinearSolver(const LinearModel             &model,
                              const scene::SolverParameters &parameters,
                              const core::Log               &log)
-    : space(model.space), prescribed(model.prescribed), parameters(parameters), log(log)
+    : model(model), space(model.space), prescribed(model.prescribed), parameters(parameters),
+      log(log)
   {
     const bool factorise = is_direct(parameters, space.n_dofs());
     if (factorise || space.degree() == 1)
@@ -47,26 +52,60 @@ namespace tetradapt::solve
         description = "direct (KLU)";
       }
     else
-      make_preconditioner(model);
+      {
+        precondition_in_single();
+        description = space.degree() == 1 ? "conjugate gradients, AMG"
+                                          : "conjugate gradients, p-multigrid on AMG";
+      }
   }
-  void
-  LinearSolver::make_preconditioner(const LinearModel &model)
+  double
+  LinearSolver::largest_diagonal() const
+  {
+    double largest = 0.;
+    for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
+      for (unsigned int c = 0; c < 3; ++c)
+        {
+          const double entry
+            = matrix_free != nullptr
+                ? matrix_free->diagonal_blocks()[node][4 * c]
+                : assembled->matrix.block(assembled->matrix.find(node, node))[4 * c];
+          largest = std::max(largest, entry);
+        }
+    return dealii::Utilities::MPI::max(largest, space.communicator());
+  }
+
+  template <typename Number>
+  std::unique_ptr<ApproximateInverse<Number>>
+  LinearSolver::multigrid(double scale) const
   {
     if (space.degree() == 1)
-      {
-        preconditioner = make_amg(assembled->matrix, space, prescribed);
-        description    = "conjugate gradients, AMG";
-        return;
-      }
+      return make_amg<Number>(assembled->matrix, space, prescribed, scale);
     coarse_space      = std::make_unique<mechanics::DisplacementSpace>(model.partition, 1, nullptr);
     const auto coarse = mechanics::assemble(*coarse_space, model.tangents, prescribed);
-    preconditioner    = make_p_multigrid<double>(
-      std::make_unique<mechanics::MatrixFreeStiffness<double>>(space, model.tangents, prescribed),
+    return make_p_multigrid<Number>(
+      std::make_unique<mechanics::MatrixFreeStiffness<Number>>(
+        space, model.tangents, prescribed, scale),
       space,
       *coarse_space,
       prescribed,
-      make_amg(coarse.matrix, *coarse_space, prescribed));
-    description = "conjugate gradients, p-multigrid on AMG";
+      make_amg<Number>(coarse.matrix, *coarse_space, prescribed, scale));
+  }
+
+  void
+  LinearSolver::precondition_in_single() const
+  {
+    // Entries near one stay in the range of single precision whatever the units.
+    const double scale = 1. / largest_diagonal();
+    preconditioner     = in_double(multigrid<float>(scale), scale, space.vector_layout());
+    is_single          = true;
+  }
+
+  void
+  LinearSolver::precondition_in_double() const
+  {
+    preconditioner.reset();
+    preconditioner = multigrid<double>(1.);
+    is_single      = false;
   }
 
   const mechanics::LinearOperator<double> &
@@ -159,6 +198,14 @@ namespace tetradapt::solve
         result.iterations_to_residual
           = result.iterations + step.iterations_to_residual - step.iterations;
         result.algebraic_error = step.error;
+        // Elements with almost no volume can be too much for single precision.
+        if (!step.converged && is_single && (step.broke_down || step.iterations >= patience))
+          {
+            log.progress("building the preconditioner in double precision");
+            precondition_in_double();
+            gained += step.gained;
+            continue;
+          }
         if (!step.converged)
           fail(result.iterations, step.residual / limits.residual);
         if (step.residual > limits.residual)

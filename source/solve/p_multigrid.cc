@@ -10,6 +10,8 @@ namespace tetradapt::solve
   namespace
   {
 
+    constexpr unsigned int smoother_degree = 3;
+
     /** Embedding of degree 1 in degree 2, and its transpose. */
     class Transfer
     {
@@ -82,7 +84,7 @@ namespace tetradapt::solve
                  std::unique_ptr<ApproximateInverse<Number>> coarse)
         : matrix(std::move(fine)), transfer(fine_space, coarse_space, prescribed),
           coarse_solver(std::move(coarse)),
-          smoother(*matrix, invert_blocks<Number, 3>(matrix->diagonal_blocks()), 3)
+          smoother(*matrix, invert_blocks<Number, 3>(matrix->diagonal_blocks()), smoother_degree)
       {
         residual.reinit(fine_space.vector_layout());
         coarse_residual.reinit(coarse_space.vector_layout());

@@ -42,14 +42,12 @@ namespace tetradapt::solve
          const core::Log                     &caller_log)
       : materials(materials), mesh(std::move(mesh_pointer)), degree(degree), log(caller_log),
         edges(edges_for(*mesh, degree)),
-        prescribed(mechanics::prescribe(scene.supports, *mesh, edges.get()))
+        prescribed(mechanics::prescribe(scene.supports, *mesh, edges.get())),
+        partition(*mesh, communicator), tangents(materials, *mesh)
     {
-      log.progress("numbering");
-      const mechanics::MeshPartition partition(*mesh, communicator);
       space = std::make_unique<DisplacementSpace>(partition, degree, edges.get());
       log.progress("assembling " + std::to_string(space->n_dofs()) + " unknowns");
       forces = mechanics::nodal_forces(scene, materials, *space);
-      const mechanics::TangentField tangents(materials, *mesh);
       solver = std::make_unique<LinearSolver>(LinearModel{partition, *space, tangents, prescribed},
                                               scene.solver,
                                               log);
@@ -79,6 +77,8 @@ namespace tetradapt::solve
     core::Log                              log;
     std::shared_ptr<const mesh::EdgeTable> edges;
     mechanics::PrescribedDisplacement      prescribed;
+    mechanics::MeshPartition               partition;
+    mechanics::TangentField                tangents;
     std::unique_ptr<DisplacementSpace>     space;
     NodalValues                            forces; ///< of the loads, on the nodes owned
     std::unique_ptr<LinearSolver>          solver;

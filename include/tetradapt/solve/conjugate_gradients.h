@@ -72,7 +72,9 @@ namespace tetradapt::solve
 
   struct IterationResult
   {
-    bool         converged  = false;
+    bool converged = false;
+    /** The preconditioner or the matrix was not positive, to rounding. */
+    bool         broke_down = false;
     unsigned int iterations = 0;
     double       residual   = 0.; ///< l2 norm
     double       error      = 0.; ///< estimated energy norm; 0: unknown

@@ -51,7 +51,7 @@ namespace tetradapt::solve
   class LinearSolver
   {
   public:
-    /** Collective. Keeps references to the model's space and supports, and to the other
+    /** Collective. Keeps references to what @p model refers to, and to the other
      * arguments. */
     LinearSolver(const LinearModel             &model,
                  const scene::SolverParameters &parameters,
@@ -84,8 +84,15 @@ namespace tetradapt::solve
     precondition(Vector &destination, const Vector &source) const;
 
   private:
+    template <typename Number>
+    std::unique_ptr<ApproximateInverse<Number>>
+    multigrid(double scale) const;
     void
-    make_preconditioner(const LinearModel &model);
+    precondition_in_single() const;
+    void
+    precondition_in_double() const;
+    double
+    largest_diagonal() const;
     const mechanics::LinearOperator<double> &
     matrix() const;
     double
@@ -101,6 +108,7 @@ namespace tetradapt::solve
     [[noreturn]] void
     fail(unsigned int iterations, double excess) const;
 
+    LinearModel                                             model;
     const mechanics::DisplacementSpace                     &space;
     const mechanics::PrescribedDisplacement                &prescribed;
     const scene::SolverParameters                          &parameters;
@@ -108,9 +116,11 @@ namespace tetradapt::solve
     std::string                                             description;
     std::unique_ptr<mechanics::LinearSystem>                assembled;
     std::unique_ptr<mechanics::MatrixFreeStiffness<double>> matrix_free;
-    std::unique_ptr<mechanics::DisplacementSpace>           coarse_space; ///< of p-multigrid
-    std::unique_ptr<Preconditioner>                         preconditioner;
-    std::unique_ptr<DirectSolver>                           direct;
+    /** Made again in double precision where single does not do. */
+    mutable std::unique_ptr<mechanics::DisplacementSpace> coarse_space; ///< of p-multigrid
+    mutable std::unique_ptr<Preconditioner>               preconditioner;
+    mutable bool                                          is_single = false;
+    std::unique_ptr<DirectSolver>                         direct;
   };
 } // namespace tetradapt::solve
 

@@ -34,13 +34,17 @@ namespace tetradapt::solve
             const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &layout);
 
   /**
-   * Smoothed-aggregation AMG (Trilinos ML) with the six rigid motions as near
-   * null space, for a matrix of degree 1. Copies what it needs of the matrix.
+   * One V-cycle of smoothed-aggregation AMG (Vanek, Mandel and Brezina, Computing 56, 1996)
+   * with the six rigid motions as near null space, for a matrix of degree 1 times
+   * @p scale, which single precision needs near one. Copies what it needs of the matrix.
+   * @tparam Number is float or double. Collective.
    */
-  std::unique_ptr<Preconditioner>
+  template <typename Number>
+  std::unique_ptr<ApproximateInverse<Number>>
   make_amg(const mechanics::BlockMatrix            &matrix,
            const mechanics::DisplacementSpace      &space,
-           const mechanics::PrescribedDisplacement &prescribed);
+           const mechanics::PrescribedDisplacement &prescribed,
+           double                                   scale);
 
   /**
    * One V-cycle of p-multigrid for a matrix of degree 2: Chebyshev smoothing with

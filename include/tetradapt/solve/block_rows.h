@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_solve_block_rows_h
+#define tetradapt_solve_block_rows_h
+
+#include "tetradapt/mechanics/linear_operator.h"
+
+#include <array>
+#include <vector>
+
+namespace tetradapt::solve
+{
+  /** A sparse matrix of n x m blocks in compressed rows; blocks are stored row by row. */
+  template <unsigned int n, unsigned int m>
+  struct BlockRows
+  {
+    using Block = std::array<double, n * m>;
+
+    std::vector<std::size_t>  begin{0}; ///< one more than rows
+    std::vector<unsigned int> columns;
+    std::vector<Block>        blocks;
+
+    unsigned int
+    n_rows() const
+    {
+      return begin.size() - 1;
+    }
+  };
+
+  /**
+   * A square matrix of n x n blocks for products: columns of blocks are stored one after
+   * the other and filled up to a register's width. Columns are local nodes of its layout.
+   */
+  template <typename Number, unsigned int n>
+  class BlockOperator : public mechanics::LinearOperator<Number>
+  {
+  public:
+    using Layout = std::shared_ptr<const dealii::Utilities::MPI::Partitioner>;
+
+    /** Copies @p rows, which are those of the owned nodes. */
+    BlockOperator(const BlockRows<n, n> &rows, const Layout &layout);
+
+    void
+    vmult(mechanics::VectorOf<Number>       &destination,
+          const mechanics::VectorOf<Number> &source) const override;
+
+    const Layout &
+    vector_layout() const override
+    {
+      return layout;
+    }
+
+    /** The blocks on the diagonal, row by row. */
+    std::vector<std::array<Number, n * n>>
+    diagonal_blocks() const;
+
+  private:
+    static constexpr unsigned int padded = n == 3 ? 4 : 8;
+
+    Layout                                      layout;
+    std::vector<std::size_t>                    begin;
+    std::vector<unsigned int>                   columns;
+    std::vector<std::array<Number, padded * n>> blocks;
+  };
+} // namespace tetradapt::solve
+
+#endif
