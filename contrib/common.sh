@@ -5,7 +5,7 @@
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 build_packages="cmake ninja-build g++ ccache mold libdeal.ii-dev libtet1.5-dev libcgal-dev
-  libpugixml-dev zlib1g-dev libmuparser-dev mpi-default-bin"
+  libsuitesparse-dev libpugixml-dev zlib1g-dev libmuparser-dev mpi-default-bin"
 test_packages="numdiff perl gnuplot-nox"
 
 say() { printf '%s\n' "$*" >&2; }

@@ -49,7 +49,7 @@ namespace tetradapt::solve
     if (factorise)
       {
         direct      = std::make_unique<DirectSolver>(assembled->matrix, space);
-        description = "direct (KLU)";
+        description = "direct (Cholesky)";
       }
     else
       {

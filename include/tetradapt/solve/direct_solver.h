@@ -8,12 +8,13 @@
 
 namespace tetradapt::solve
 {
-  /** A sparse factorisation (KLU of Trilinos' Amesos; on several ranks it works on the
-   * first), which solves for any number of right-hand sides. Copies the matrix. */
+  /** A sparse Cholesky factorisation (CHOLMOD of SuiteSparse; on several ranks the first
+   * does it alone), which solves for any number of right-hand sides. Copies the matrix. */
   class DirectSolver
   {
   public:
-    /** Factorises. Collective. @throws core::NumericalError if @p matrix is singular. */
+    /** Factorises. Collective. @throws core::NumericalError if @p matrix is not positive
+     * definite to rounding. */
     DirectSolver(const mechanics::BlockMatrix &matrix, const mechanics::DisplacementSpace &space);
     ~DirectSolver();
 
@@ -24,6 +25,8 @@ namespace tetradapt::solve
   private:
     struct Factors;
     std::unique_ptr<Factors> factors;
+    MPI_Comm                 communicator;
+    bool                     is_first_rank;
   };
 } // namespace tetradapt::solve
 
