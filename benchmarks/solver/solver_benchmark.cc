@@ -2,14 +2,15 @@
 //
 // The solver alone, on the clamped beam 10 x 1 x 1 in equal tetrahedra:
 //
-//   tetradapt_solver_benchmark <subdivisions> [degree [nu [contrast [distortion [product]]]]]
+//   tetradapt_solver_benchmark <subdivisions> [degree [nu [contrast [distortion [product
+//     [direct]]]]]]
 //
 // prints one line of CSV with a header: unknowns, iterations to 1e-8, seconds of set-up
 // (edges, supports, numbering, matrix, preconditioner) and of the solve (iterations,
-// energies), and of one product with the assembled matrix (best of twenty) if the last
-// argument is 1. CPU seconds, the largest of all ranks, and wall seconds of the first two.
-// A contrast makes the half x > 5 that many times stiffer; a distortion moves inner points
-// by up to that part of a brick.
+// energies), and of one product with the assembled matrix (best of twenty) if product
+// is 1; the sparse Cholesky factorisation solves if direct is 1. CPU seconds, the largest of all
+// ranks, and wall seconds of the first two. A contrast makes the half x > 5 that many times
+// stiffer; a distortion moves inner points by up to that part of a brick.
 
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/mechanics/stiffness.h"
@@ -81,7 +82,7 @@ namespace
   }
 
   scene::Scene
-  cantilever(double nu, double contrast)
+  cantilever(double nu, double contrast, bool direct)
   {
     scene::Scene scene;
     scene.materials.resize(2);
@@ -100,7 +101,8 @@ namespace
     scene.loads[0].type           = scene::LoadType::traction;
     scene.loads[0].selector.where = "x > 10 - 1e-9";
     scene.loads[0].value          = {{"0", "0", "-1"}};
-    scene.solver.type             = scene::SolverParameters::Type::cg;
+    scene.solver.type
+      = direct ? scene::SolverParameters::Type::direct : scene::SolverParameters::Type::cg;
     return scene;
   }
 
@@ -130,7 +132,7 @@ namespace
     const auto argument
       = [&](int i, double value) { return argc > i ? std::stod(argv[i]) : value; };
     const unsigned int n = argument(1, 8), degree = argument(2, 2);
-    const scene::Scene scene = cantilever(argument(3, 0.3), argument(4, 1.));
+    const scene::Scene scene = cantilever(argument(3, 0.3), argument(4, 1.), argument(7, 0.) > 0.);
     const auto         body  = beam(n, argument(5, 0.));
     mesh::select_faces(*body, mesh::face_selectors(scene));
     const mechanics::MaterialMap materials(scene, *body);

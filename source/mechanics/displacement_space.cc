@@ -42,12 +42,13 @@ namespace tetradapt::mechanics
       cells = partition.order();
     else
       for (const unsigned int cell : partition.order())
-        for (unsigned int i = 0; i < n_nodes_per_cell(); ++i)
-          if (is_owned(cell_node(cell, i)))
-            {
-              cells.push_back(cell);
-              break;
-            }
+        {
+          bool needed = partition.owner(cell) == rank;
+          for (unsigned int i = 0; i < n_nodes_per_cell() && !needed; ++i)
+            needed = is_owned(cell_node(cell, i));
+          if (needed)
+            cells.push_back(cell);
+        }
     add_ghosts(numbers, range);
 
     IndexSet owned(3 * firsts.back()), ghosts(3 * firsts.back());

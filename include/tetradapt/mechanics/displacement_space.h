@@ -77,7 +77,9 @@ namespace tetradapt::mechanics
       return partitioner->local_to_global(3 * local_node) / 3;
     }
     /** Mesh cells that touch a node owned by this rank, in the order of the
-     * partition: what assembling complete rows needs. */
+     * partition: what assembling complete rows needs. Also the rank's other cells, so
+     * that each node that it owns in one space has its neighbours in spaces of another
+     * degree on the same partition. */
     const std::vector<unsigned int> &
     touching_cells() const
     {
