@@ -165,7 +165,8 @@ namespace tetradapt::report
           labels += "set label " + gnuplot_text(slope.label) + " at "
                     + number(left * std::sqrt(width)) + "," + number(std::sqrt(top * bottom))
                     + " left offset 0.5,0.5 textcolor rgb '#606060' font ',13'\n";
-          left *= width * std::pow(x.upper / x.lower, 0.09);
+          // The label begins in the middle of its triangle.
+          left *= std::sqrt(width) * std::pow(x.upper / x.lower, 0.16);
         }
       return data + "EOD\n" + labels;
     }

@@ -130,7 +130,7 @@ namespace tetradapt::report
       if (scene.truth.has_displacement() || scene.truth.has_energy())
         return "true energy error";
       if (scene.reference.type != Reference::none)
-        return "energy norm of the difference to the reference";
+        return "error to the reference";
       return "estimated energy error";
     }
 
