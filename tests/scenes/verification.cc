@@ -67,6 +67,17 @@ namespace
   }
 
   void
+  goals()
+  {
+    const std::string some = " --set 'Adaptivity/Maximum cycles=3'";
+    const Table       face = solve("manufactured_goals", "--set 'Estimation/Goal=face'" + some);
+    within("effectivity of a face's mean, P1", face.last("goal_face_effectivity"), 0.9, 1.1);
+    const Table ball
+      = solve("manufactured_goals", "--set 'Estimation/Goal=ball' --set Degree=2" + some);
+    within("effectivity of a point's stress, P2", ball.last("goal_ball_effectivity"), 0.9, 1.1);
+  }
+
+  void
   panels()
   {
     const Table cook = solve("cook_membrane_p2", "--set 'Adaptivity/Maximum tetrahedra=4000'");
@@ -81,5 +92,6 @@ main()
 {
   l_shape();
   sphere();
+  goals();
   panels();
 }
