@@ -2,6 +2,7 @@
 #include "tetradapt/compare/patch_solver.h"
 
 #include "tetradapt/compare/field_evaluator.h"
+#include "tetradapt/core/function_clones.h"
 
 namespace tetradapt::compare
 {
@@ -37,7 +38,7 @@ namespace tetradapt::compare
   }
 
   template <unsigned int degree>
-  void
+  TETRADAPT_CLONES void
   PatchSolver<degree>::collect(const Point<3> &center, const std::vector<unsigned int> &cells)
   {
     double square = 0.;
@@ -73,7 +74,7 @@ namespace tetradapt::compare
   }
 
   template <unsigned int degree>
-  void
+  TETRADAPT_CLONES void
   PatchSolver<degree>::collect_equilibrium(const Point<3>                  &center,
                                            const std::vector<unsigned int> &cells)
   {
@@ -99,7 +100,7 @@ namespace tetradapt::compare
   }
 
   template <unsigned int degree>
-  void
+  TETRADAPT_CLONES void
   PatchSolver<degree>::solve_inside()
   {
     constexpr unsigned int n_rows = 3 * n_lower;
@@ -170,7 +171,7 @@ namespace tetradapt::compare
   }
 
   template <unsigned int degree>
-  void
+  TETRADAPT_CLONES void
   PatchSolver<degree>::add_face(const Point<3> &center, const StressConditions::Face &face)
   {
     for (unsigned int q = 0; q < face.n_points; ++q)
@@ -190,7 +191,7 @@ namespace tetradapt::compare
   }
 
   template <unsigned int degree>
-  void
+  TETRADAPT_CLONES void
   PatchSolver<degree>::add_products(const double (&of_components)[6][6])
   {
     for (unsigned int a = 0; a < 6; ++a)
@@ -225,7 +226,7 @@ namespace tetradapt::compare
   }
 
   template <unsigned int degree>
-  void
+  TETRADAPT_CLONES void
   PatchSolver<degree>::add_equilibrium()
   {
     for (unsigned int i = 0; i < 3; ++i)
@@ -252,7 +253,7 @@ namespace tetradapt::compare
   }
 
   template <unsigned int degree>
-  bool
+  TETRADAPT_CLONES bool
   PatchSolver<degree>::solve_at_boundary(const Point<3>                  &center,
                                          const std::vector<unsigned int> &cells)
   {
@@ -278,7 +279,7 @@ namespace tetradapt::compare
   }
 
   template <unsigned int degree>
-  bool
+  TETRADAPT_CLONES bool
   PatchSolver<degree>::solve(const unsigned int               vertex,
                              const std::vector<unsigned int> &cells,
                              double                          &unit,

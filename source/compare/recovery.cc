@@ -126,6 +126,84 @@ namespace tetradapt::compare
     gather_slices(polynomials, patches.size(), polynomials.size() / patches.size(), communicator);
   }
 
+  namespace
+  {
+    using PointBlock = RecoveredStress::PointBlock;
+
+    /** Minus the stress of the solution, which is linear at most, at the points of a block,
+     * whose positions it sets. */
+    TETRADAPT_PART_OF_CLONES void
+    begin_block(const mesh::TetMesh &mesh,
+                const CellStress    &stress,
+                const unsigned int   cell,
+                PointBlock          &block)
+    {
+      const auto &corners = mesh.cells[cell];
+      for (unsigned int d = 0; d < 3; ++d)
+        for (unsigned int q = 0; q < PointBlock::size; ++q)
+          {
+            double sum = 0.;
+            for (unsigned int i = 0; i < 4; ++i)
+              sum += block.barycentric[i][q] * mesh.points[corners[i]][d];
+            block.position[d][q] = sum;
+          }
+      double at_corners[4][6];
+      for (unsigned int i = 0; i < 4; ++i)
+        {
+          mesh::Barycentric b{{0., 0., 0., 0.}};
+          b[i] = 1.;
+          stress.at(cell, b, mesh.points[corners[i]], at_corners[i]);
+        }
+      for (unsigned int c = 0; c < 6; ++c)
+        for (unsigned int q = 0; q < PointBlock::size; ++q)
+          {
+            double sum = 0.;
+            for (unsigned int i = 0; i < 4; ++i)
+              sum -= block.barycentric[i][q] * at_corners[i][c];
+            block.stress[c][q] = sum;
+          }
+    }
+
+    TETRADAPT_PART_OF_CLONES double
+    complementary_energy(const ElasticMatrices     &matrices,
+                         const std::vector<double> &weights,
+                         const PointBlock          &block)
+    {
+      PointBlock::Lanes density{};
+      for (unsigned int a = 0; a < 6; ++a)
+        for (unsigned int b = 0; b < 6; ++b)
+          for (unsigned int q = 0; q < PointBlock::size; ++q)
+            density[q] += matrices.compliance[a][b] * block.stress[a][q] * block.stress[b][q];
+      double sum = 0.;
+      for (unsigned int q = 0; q < weights.size(); ++q)
+        sum += weights[q] * density[q];
+      return sum;
+    }
+
+    /** stress_difference() for the recovered stress without thermal strain, all points of
+     * a cell at once. */
+    TETRADAPT_CLONES void
+    set_differences(const mesh::TetMesh   &mesh,
+                    const CellStress      &stress,
+                    const RecoveredStress &recovered,
+                    const TetQuadrature   &rule,
+                    const Slice            cells,
+                    std::vector<double>   &result)
+    {
+      PointBlock block;
+      for (unsigned int q = 0; q < PointBlock::size; ++q)
+        for (unsigned int i = 0; i < 4; ++i)
+          block.barycentric[i][q] = rule.points[q < rule.points.size() ? q : 0][i];
+      for (unsigned int cell = cells.begin; cell < cells.end; ++cell)
+        {
+          begin_block(mesh, stress, cell, block);
+          recovered.add_at(cell, block);
+          const double energy = complementary_energy(stress.materials()[cell], rule.weights, block);
+          result[cell]        = std::sqrt(std::max(energy, 0.) * mesh::cell_volume(mesh, cell));
+        }
+    }
+  } // namespace
+
   RecoveryEstimate
   recovery_estimate(const mesh::NodalField       &u_h,
                     const mechanics::MaterialMap &materials,
@@ -138,14 +216,30 @@ namespace tetradapt::compare
       loads = std::make_unique<GivenLoads>(*scene, materials, u_h.mesh());
     const RecoveredStress recovered(u_h, stress, loads.get(), communicator);
     RecoveryEstimate      result;
-    result.cell_energy = stress_difference(
-      u_h.mesh(),
-      stress,
-      [&](const unsigned int cell, const mesh::Barycentric &b, const Point<3> &point, double *s) {
-        recovered.at(cell, b, point, s);
-      },
-      tet_quadrature(u_h.degree() == 1 ? 2 : 5),
-      communicator);
+    const TetQuadrature  &rule    = tet_quadrature(u_h.degree() == 1 ? 2 : 5);
+    const unsigned int    n_cells = u_h.mesh().n_cells();
+    if (stress.has_thermal_strain())
+      result.cell_energy = stress_difference(
+        u_h.mesh(),
+        stress,
+        [&](unsigned int cell, const mesh::Barycentric &b, const Point<3> &point, double *s) {
+          recovered.at(cell, b, point, s);
+        },
+        rule,
+        communicator);
+    else
+      {
+        result.cell_energy.assign(n_cells, 0.);
+        together(communicator, [&] {
+          set_differences(u_h.mesh(),
+                          stress,
+                          recovered,
+                          rule,
+                          own_slice(n_cells, communicator),
+                          result.cell_energy);
+        });
+        gather_slices(result.cell_energy, n_cells, 1, communicator);
+      }
     result.global = root_of_squares(result.cell_energy);
     return result;
   }

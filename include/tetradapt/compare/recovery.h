@@ -54,6 +54,28 @@ namespace tetradapt::compare
           add_polynomial<2>(patches.of_cell[cell][i], mesh.cells[cell][i], b[i], point, stress);
     }
 
+    /** Points of one cell, a lane of the processor's vectors each, and six stresses there. */
+    struct PointBlock
+    {
+      static constexpr unsigned int size = 16;
+      using Lanes                        = std::array<double, size>;
+
+      std::array<Lanes, 4> barycentric;
+      std::array<Lanes, 3> position;
+      std::array<Lanes, 6> stress;
+    };
+
+    /** Adds the recovered stress at the points of a block. */
+    TETRADAPT_PART_OF_CLONES void
+    add_at(const unsigned int cell, PointBlock &block) const
+    {
+      for (unsigned int i = 0; i < 4; ++i)
+        if (linear)
+          add_polynomial<1>(patches.of_cell[cell][i], mesh.cells[cell][i], i, block);
+        else
+          add_polynomial<2>(patches.of_cell[cell][i], mesh.cells[cell][i], i, block);
+    }
+
     /** The patches of the vertices of @p cell. */
     const std::array<unsigned int, 4> &
     patches_of_cell(const unsigned int cell) const
@@ -104,6 +126,43 @@ namespace tetradapt::compare
           const double weight = factor * m[k];
           for (unsigned int c = 0; c < 6; ++c)
             stress[c] += weight * polynomial[1 + 6 * k + c];
+        }
+    }
+
+    /** Adds corner @p i's barycentric coordinates times its patch's polynomial. */
+    template <unsigned int degree>
+    TETRADAPT_PART_OF_CLONES void
+    add_polynomial(const unsigned int patch,
+                   const unsigned int vertex,
+                   const unsigned int i,
+                   PointBlock        &block) const
+    {
+      constexpr unsigned int n          = n_monomials[degree];
+      constexpr unsigned int size       = PointBlock::size;
+      const double          *polynomial = &polynomials[std::size_t(patch) * (1 + 6 * n)];
+      const double           scale      = 1. / polynomial[0];
+      const Point<3>        &center     = mesh.points[vertex];
+      PointBlock::Lanes      m[n];
+      for (unsigned int q = 0; q < size; ++q)
+        {
+          double values[n];
+          monomials<degree>(scale * (block.position[0][q] - center[0]),
+                            scale * (block.position[1][q] - center[1]),
+                            scale * (block.position[2][q] - center[2]),
+                            values);
+          for (unsigned int k = 0; k < n; ++k)
+            m[k][q] = block.barycentric[i][q] * values[k];
+        }
+      for (unsigned int c = 0; c < 6; ++c)
+        {
+          PointBlock::Lanes sum = block.stress[c];
+          for (unsigned int k = 0; k < n; ++k)
+            {
+              const double coefficient = polynomial[1 + 6 * k + c];
+              for (unsigned int q = 0; q < size; ++q)
+                sum[q] += coefficient * m[k][q];
+            }
+          block.stress[c] = sum;
         }
     }
 
