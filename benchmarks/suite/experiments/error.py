@@ -95,19 +95,25 @@ def write_levels(session, body, rows):
 
 
 def draw(session, body, rows):
-    """One plot of the error over CPU seconds; the slower solvers of a program are left to the table."""
-    left_out = ("CG, scaled", "CG, Cholesky")
-    series = {}
+    """Two plots of the error over CPU seconds: all programs, and all drivers of Tetradapt.
+
+    In the first the slower solvers of a program are left to the table.
+    """
+    title = {"cantilever": "Cantilever", "l_shape": "L-shaped solid"}[body.name]
+    axes = "CPU seconds of the whole process, one thread", "relative error in the energy norm"
+    programs, drivers = {}, {}
     for row in rows:
         kind = row["case"].rsplit(" ", 1)[0]
-        if any(word in row["program"] for word in left_out) or kind in ("reference", *DRIVERS[2:]):
-            continue
-        series.setdefault(levels.curve(row), []).append((float(row["cpu_seconds"]), float(row["error"])))
+        point = float(row["cpu_seconds"]), float(row["error"])
+        if row["program"] == "Tetradapt" and row["degree"] == 2:
+            drivers.setdefault(kind, []).append(point)
+        if kind in ("uniform", *DRIVERS[:2]) and "CG, " not in row["program"]:
+            programs.setdefault(levels.curve(row), []).append(point)
     # Tetradapt first, refined before uniform, degree 2 before 1.
-    series = dict(sorted(series.items(), key=lambda item: (
+    programs = dict(sorted(programs.items(), key=lambda item: (
         not item[0].startswith("Tetradapt"), "uniform" in item[0], item[0][:-1], -int(item[0][-1]))))
-    plots.lines(session.path(f"error_{body.name}.svg"), series,
-                title={"cantilever": "Cantilever", "l_shape": "L-shaped solid"}[body.name]
-                + ": true error against run time",
-                x="CPU seconds of the whole process, one thread",
-                y="relative error in the energy norm")
+    plots.lines(session.path(f"error_{body.name}.svg"), programs,
+                f"{title}: true error against run time", *axes)
+    if not session.quick:
+        plots.lines(session.path(f"drivers_{body.name}.svg"), drivers,
+                    f"{title}: what drives Tetradapt's refinement, degree 2", *axes)
