@@ -99,6 +99,12 @@ namespace tetradapt::mechanics
       BlockMatrix::Block &target       = system.matrix.block(system.matrix.find(row, column));
       const unsigned char row_fixed    = prescribed.fixed[row_node];
       const unsigned char column_fixed = prescribed.fixed[column_node];
+      if (row_fixed == 0 && column_fixed == 0) // almost everywhere
+        {
+          for (unsigned int i = 0; i < 9; ++i)
+            target[i] += transposed ? K[3 * (i % 3) + i / 3] : K[i];
+          return;
+        }
       for (unsigned int i = 0; i < 3; ++i)
         for (unsigned int j = 0; j < 3; ++j)
           {

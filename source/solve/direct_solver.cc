@@ -3,6 +3,8 @@
 
 #include "tetradapt/core/exceptions.h"
 
+#include "messages.h"
+
 #include <deal.II/base/mpi.h>
 
 #include <suitesparse/cholmod.h>
@@ -56,25 +58,15 @@ namespace tetradapt::solve
       return triangle;
     }
 
-    template <typename T>
-    std::vector<T>
-    join(const std::vector<std::vector<T>> &parts)
-    {
-      std::vector<T> whole;
-      for (const auto &part : parts)
-        whole.insert(whole.end(), part.begin(), part.end());
-      return whole;
-    }
-
-    /** All columns on the first rank, nothing on others. */
+    /** All columns. Collective. */
     Triangle
     gather(Triangle triangle, MPI_Comm communicator)
     {
       if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
         return triangle;
-      return {join(dealii::Utilities::MPI::gather(communicator, triangle.lengths)),
-              join(dealii::Utilities::MPI::gather(communicator, triangle.rows)),
-              join(dealii::Utilities::MPI::gather(communicator, triangle.values))};
+      return {all_gather_values(triangle.lengths, communicator),
+              all_gather_values(triangle.rows, communicator),
+              all_gather_values(triangle.values, communicator)};
     }
   } // namespace
 
@@ -151,11 +143,11 @@ namespace tetradapt::solve
   {
     const std::size_t         n = right_hand_side.locally_owned_size();
     const std::vector<double> own(right_hand_side.begin(), right_hand_side.begin() + n);
-    std::vector<double>       x    = join(dealii::Utilities::MPI::gather(communicator, own));
+    std::vector<double>       x    = all_gather_values(own, communicator);
     const bool                good = !is_first_rank || factors->solve(x);
     if (dealii::Utilities::MPI::min(good ? 1 : 0, communicator) == 0)
       throw_singular();
-    x                = dealii::Utilities::MPI::broadcast(communicator, x);
+    MPI_Bcast(x.data(), static_cast<int>(x.size()), MPI_DOUBLE, 0, communicator);
     const auto first = right_hand_side.get_partitioner()->local_range().first;
     std::copy_n(x.begin() + first, n, solution.begin());
   }

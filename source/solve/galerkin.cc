@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/solve/galerkin.h"
 
+#include "tetradapt/core/clones.h"
+
 #include <algorithm>
+#include <type_traits>
 
 namespace tetradapt::solve
 {
@@ -41,29 +44,48 @@ namespace tetradapt::solve
       std::vector<std::size_t> position;
     };
 
-    /** c += a b, with a n x l and b l x 6. */
-    template <unsigned int n, unsigned int l>
-    void
-    add_product(const double *__restrict a, const double *__restrict b, double *__restrict c)
+    /** c += a b, with a n x n and b n x 6. */
+    template <unsigned int n>
+    TETRADAPT_INLINE void
+    multiply(const double *__restrict a, const double *__restrict b, double *__restrict c)
     {
       for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int k = 0; k < l; ++k)
+        for (unsigned int k = 0; k < n; ++k)
           for (unsigned int j = 0; j < 6; ++j)
-            c[6 * i + j] += a[l * i + k] * b[6 * k + j];
+            c[6 * i + j] += a[n * i + k] * b[6 * k + j];
     }
 
-    /** c += a^T b, with a l x 6 and b l x 6. */
-    template <unsigned int l>
-    void
-    add_transposed_product(const double *__restrict a,
-                           const double *__restrict b,
-                           double *__restrict c)
+    /** c += a^T b, with a n x 6 and b n x 6. */
+    template <unsigned int n>
+    TETRADAPT_INLINE void
+    multiply_transposed(const double *__restrict a,
+                        const double *__restrict b,
+                        double *__restrict c)
     {
       for (unsigned int i = 0; i < 6; ++i)
-        for (unsigned int k = 0; k < l; ++k)
+        for (unsigned int k = 0; k < n; ++k)
           for (unsigned int j = 0; j < 6; ++j)
             c[6 * i + j] += a[6 * k + i] * b[6 * k + j];
     }
+
+// Clones cannot be made of templates.
+#define TETRADAPT_PRODUCTS(n)                                                                      \
+  TETRADAPT_CLONES void add_product(std::integral_constant<unsigned int, n>,                       \
+                                    const double *a,                                               \
+                                    const double *b,                                               \
+                                    double       *c)                                               \
+  {                                                                                                \
+    multiply<n>(a, b, c);                                                                          \
+  }                                                                                                \
+  TETRADAPT_CLONES void add_transposed_product(std::integral_constant<unsigned int, n>,            \
+                                               const double *a,                                    \
+                                               const double *b,                                    \
+                                               double       *c)                                    \
+  {                                                                                                \
+    multiply_transposed<n>(a, b, c);                                                               \
+  }
+    TETRADAPT_PRODUCTS(3)
+    TETRADAPT_PRODUCTS(6)
 
     template <unsigned int n>
     bool
@@ -83,15 +105,18 @@ namespace tetradapt::solve
   {
     BlockRows<n, 6>  P;
     RowBuilder<n, 6> builder(P, n_aggregates);
+    P.columns.reserve(4 * std::size_t(matrix.n_rows()));
+    P.blocks.reserve(4 * std::size_t(matrix.n_rows()));
     for (unsigned int row = 0; row < matrix.n_rows(); ++row)
       {
         for (std::size_t k = matrix.begin[row]; k < matrix.begin[row + 1]; ++k)
           {
             const unsigned int node = matrix.columns[k], column = tentative.aggregates[node];
             if (column != no_aggregate && !is_zero<n>(matrix.blocks[k]))
-              add_product<n, n>(matrix.blocks[k].data(),
-                                tentative.rows[node].data(),
-                                builder.block(column).data());
+              add_product(std::integral_constant<unsigned int, n>(),
+                          matrix.blocks[k].data(),
+                          tentative.rows[node].data(),
+                          builder.block(column).data());
           }
         auto factors = inverse_diagonal[row];
         for (double &factor : factors)
@@ -100,7 +125,10 @@ namespace tetradapt::solve
           {
             const auto sum = P.blocks[k];
             P.blocks[k].fill(0.);
-            add_product<n, n>(factors.data(), sum.data(), P.blocks[k].data());
+            add_product(std::integral_constant<unsigned int, n>(),
+                        factors.data(),
+                        sum.data(),
+                        P.blocks[k].data());
           }
         if (tentative.aggregates[row] != no_aggregate)
           {
@@ -119,8 +147,10 @@ namespace tetradapt::solve
            const BlockRows<n, 6> &prolongation,
            unsigned int           n_aggregates)
   {
-    BlockRows<n, 6>          product; // A P
-    RowBuilder<n, 6>         product_builder(product, n_aggregates);
+    BlockRows<n, 6>  product; // A P
+    RowBuilder<n, 6> product_builder(product, n_aggregates);
+    product.columns.reserve(2 * prolongation.columns.size());
+    product.blocks.reserve(2 * prolongation.columns.size());
     std::vector<std::size_t> begin(n_aggregates + 1, 0); // P^T: where in P's arrays
     for (unsigned int row = 0; row < matrix.n_rows(); ++row)
       {
@@ -129,9 +159,10 @@ namespace tetradapt::solve
             {
               const unsigned int node = matrix.columns[k];
               for (std::size_t l = prolongation.begin[node]; l < prolongation.begin[node + 1]; ++l)
-                add_product<n, n>(matrix.blocks[k].data(),
-                                  prolongation.blocks[l].data(),
-                                  product_builder.block(prolongation.columns[l]).data());
+                add_product(std::integral_constant<unsigned int, n>(),
+                            matrix.blocks[k].data(),
+                            prolongation.blocks[l].data(),
+                            product_builder.block(prolongation.columns[l]).data());
             }
         product_builder.end_row();
         for (std::size_t l = prolongation.begin[row]; l < prolongation.begin[row + 1]; ++l)
@@ -153,9 +184,10 @@ namespace tetradapt::solve
           {
             const auto [row, l] = transposed[k];
             for (std::size_t m = product.begin[row]; m < product.begin[row + 1]; ++m)
-              add_transposed_product<n>(prolongation.blocks[l].data(),
-                                        product.blocks[m].data(),
-                                        builder.block(product.columns[m]).data());
+              add_transposed_product(std::integral_constant<unsigned int, n>(),
+                                     prolongation.blocks[l].data(),
+                                     product.blocks[m].data(),
+                                     builder.block(product.columns[m]).data());
           }
         builder.end_row();
       }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "node_exchange.h"
 
+#include "messages.h"
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <algorithm>
-#include <map>
 
 namespace tetradapt::solve
 {
@@ -87,26 +88,45 @@ namespace tetradapt::solve
   {
     if (layout->n_mpi_processes() == 1)
       return;
-    std::map<unsigned int, std::vector<double>> to_send;
-    auto                                        range = layout->import_indices().begin();
-    for (const auto &[rank, n_indices] : layout->import_targets())
-      for (unsigned int sent = 0; sent < n_indices; ++range)
-        {
-          for (unsigned int index = range->first; index < range->second; index += 3)
-            pack_row(prolongation, index / 3, to_send[rank]);
-          sent += range->second - range->first;
-        }
-    const auto received
-      = dealii::Utilities::MPI::some_to_some(layout->get_mpi_communicator(), to_send);
+    const MPI_Comm                   communicator = layout->get_mpi_communicator();
+    constexpr int                    tag          = 4711;
+    std::vector<std::vector<double>> to_send(layout->import_targets().size());
+    std::vector<MPI_Request>         requests(to_send.size());
+    auto                             range = layout->import_indices().begin();
+    for (unsigned int i = 0; i < to_send.size(); ++i)
+      {
+        const auto [rank, n_indices] = layout->import_targets()[i];
+        for (unsigned int sent = 0; sent < n_indices; ++range)
+          {
+            for (unsigned int index = range->first; index < range->second; index += 3)
+              pack_row(prolongation, index / 3, to_send[i]);
+            sent += range->second - range->first;
+          }
+        MPI_Isend(to_send[i].data(),
+                  static_cast<int>(to_send[i].size()),
+                  MPI_DOUBLE,
+                  static_cast<int>(rank),
+                  tag,
+                  communicator,
+                  &requests[i]);
+      }
     for (const auto &[rank, n_indices] : layout->ghost_targets())
       {
-        const double *packed = received.at(rank).data();
+        MPI_Status status;
+        int        size = 0;
+        MPI_Probe(static_cast<int>(rank), tag, communicator, &status);
+        MPI_Get_count(&status, MPI_DOUBLE, &size);
+        std::vector<double> received(size);
+        MPI_Recv(
+          received.data(), size, MPI_DOUBLE, static_cast<int>(rank), tag, communicator, &status);
+        const double *packed = received.data();
         for (unsigned int node = 0; node < n_indices / 3; ++node)
           {
             packed = unpack_row(packed, prolongation);
             prolongation.begin.push_back(prolongation.columns.size());
           }
       }
+    MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
   }
 
   BlockRows<6, 6>
@@ -117,10 +137,11 @@ namespace tetradapt::solve
     std::vector<double> packed;
     for (unsigned int row = 0; row < matrix.n_rows(); ++row)
       pack_row(matrix, row, packed);
-    const auto                  all = dealii::Utilities::MPI::all_gather(communicator, packed);
+    std::vector<int>            begin;
+    const auto                  all = all_gather_values(packed, communicator, &begin);
     std::vector<const double *> next;
-    for (const auto &one : all)
-      next.push_back(one.data());
+    for (unsigned int rank = 0; rank + 1 < begin.size(); ++rank)
+      next.push_back(all.data() + begin[rank]);
     BlockRows<6, 6> sum;
     for (unsigned int row = 0; row < matrix.n_rows(); ++row)
       {
@@ -151,11 +172,6 @@ namespace tetradapt::solve
   std::vector<NodeModes<6>>
   gather_modes(const std::vector<NodeModes<6>> &modes, MPI_Comm communicator)
   {
-    if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
-      return modes;
-    std::vector<NodeModes<6>> whole;
-    for (const auto &part : dealii::Utilities::MPI::all_gather(communicator, modes))
-      whole.insert(whole.end(), part.begin(), part.end());
-    return whole;
+    return all_gather_values(modes, communicator);
   }
 } // namespace tetradapt::solve

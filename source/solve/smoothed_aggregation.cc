@@ -217,8 +217,8 @@ namespace tetradapt::solve
         level.smoother.step(x, b);
       }
 
-      /** The correction for the right-hand side that is stored with level @p i of coarse: a
-       * W-cycle, since these levels are cheap. */
+      /** The correction for the right-hand side that is stored with level @p i of coarse.
+       * Two cycles from the second on, where they cost little (a W-cycle). */
       const VectorOf<double> &
       solve_below(std::size_t i) const
       {
@@ -229,6 +229,8 @@ namespace tetradapt::solve
           }
         const Level<double, 6> &level = *coarse[i];
         cycle(level, i + 1, level.solution, level.right_hand_side);
+        if (i == 0)
+          return level.solution;
         level.matrix.vmult(level.residual, level.solution);
         level.right_hand_side -= level.residual;
         cycle(level, i + 1, level.correction, level.right_hand_side);
