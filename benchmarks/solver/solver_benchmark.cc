@@ -8,17 +8,20 @@
 // prints one line of CSV with a header: unknowns, iterations to 1e-8, seconds of set-up
 // (edges, supports, numbering, matrix, preconditioner) and of the solve (iterations,
 // energies), and of one product with the assembled matrix (best of twenty) if product
-// is 1; the sparse Cholesky factorisation solves if direct is 1. CPU seconds, the largest of all
-// ranks, and wall seconds of the first two. A contrast makes the half x > 5 that many times
-// stiffer; a distortion moves inner points by up to that part of a brick.
+// is 1, also in single precision and matrix-free; the sparse Cholesky factorisation solves if
+// direct is 1. CPU seconds, the largest of all ranks, and wall seconds of the first two. A contrast
+// makes the half x > 5 that many times stiffer; a distortion moves inner points by up to that part
+// of a brick.
 
 #include "tetradapt/core/exceptions.h"
+#include "tetradapt/mechanics/matrix_free_stiffness.h"
 #include "tetradapt/mechanics/stiffness.h"
 #include "tetradapt/mesh/bricks.h"
 #include "tetradapt/mesh/mesh_checks.h"
 #include "tetradapt/mesh/mesh_factory.h"
 #include "tetradapt/mesh/selection.h"
 #include "tetradapt/scene/scene.h"
+#include "tetradapt/solve/block_rows.h"
 #include "tetradapt/solve/static_solution.h"
 #include "tetradapt/solve/static_system.h"
 
@@ -106,24 +109,55 @@ namespace
     return scene;
   }
 
+  /** CPU seconds of one product, the best of twenty. */
+  template <typename Number>
   double
-  time_of_assembled_product(const scene::Scene           &scene,
-                            const mechanics::MaterialMap &materials,
-                            const mesh::TetMesh          &body,
-                            unsigned int                  degree)
+  time_of_product(const mechanics::LinearOperator<Number> &matrix)
   {
-    const mechanics::MeshPartition     partition(body, MPI_COMM_WORLD);
-    const mesh::EdgeTable              edges = mesh::build_edges(body);
-    const mechanics::DisplacementSpace space(partition, degree, &edges);
-    const auto prescribed = mechanics::prescribe(scene.supports, body, &edges);
-    const auto system
-      = mechanics::assemble(space, mechanics::TangentField(materials, body), prescribed);
-    mechanics::Vector x(space.vector_layout()), y(x);
-    x           = 1.;
+    mechanics::VectorOf<Number> x(matrix.vector_layout()), y(x);
+    x           = 1;
     double best = 1e30;
     for (unsigned int repetition = 0; repetition < 20; ++repetition)
-      best = std::min(best, measure([&] { system.matrix.vmult(y, x); }).cpu);
+      best = std::min(best, measure([&] { matrix.vmult(y, x); }).cpu);
     return best;
+  }
+
+  /** Of the assembled matrix; in single precision; and matrix-free in double and single. */
+  std::array<double, 4>
+  times_of_products(const scene::Scene           &scene,
+                    const mechanics::MaterialMap &materials,
+                    const mesh::TetMesh          &body,
+                    unsigned int                  degree)
+  {
+    const mechanics::MeshPartition     partition(body, MPI_COMM_WORLD);
+    const mechanics::TangentField      tangents(materials, body);
+    const mesh::EdgeTable              edges = mesh::build_edges(body);
+    const mechanics::DisplacementSpace space(partition, degree, &edges);
+    const auto  prescribed = mechanics::prescribe(scene.supports, body, &edges);
+    const auto  system     = mechanics::assemble(space, tangents, prescribed);
+    const auto &matrix     = system.matrix;
+
+    solve::BlockRows<3, 3> rows;
+    for (unsigned int row = 0; row < matrix.n_rows(); ++row)
+      rows.begin.push_back(matrix.row_end(row));
+    for (std::size_t k = 0; k < matrix.n_blocks(); ++k)
+      {
+        rows.columns.push_back(matrix.column(k));
+        rows.blocks.push_back(matrix.block(k));
+      }
+    std::array<double, 4> times{
+      {time_of_product(matrix),
+       time_of_product(solve::BlockOperator<float, 3>(rows, space.vector_layout())),
+       0.,
+       0.}};
+    if (degree == 2)
+      {
+        times[2]
+          = time_of_product(mechanics::MatrixFreeStiffness<double>(space, tangents, prescribed));
+        times[3]
+          = time_of_product(mechanics::MatrixFreeStiffness<float>(space, tangents, prescribed));
+      }
+    return times;
   }
 
   void
@@ -145,17 +179,20 @@ namespace
     });
     const Seconds solving = measure([&] { solution = system->solve(nullptr, {}); });
     system.reset();
-    const double product
-      = argument(6, 0.) > 0. ? time_of_assembled_product(scene, materials, *body, degree) : 0.;
+    std::array<double, 4> products{};
+    if (argument(6, 0.) > 0.)
+      products = times_of_products(scene, materials, *body, degree);
+    const double product = products[0];
     if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       std::cout << "degree,unknowns,iterations,set_up_cpu,solve_cpu,set_up_wall,solve_wall,"
-                   "product_cpu,products,cpu_per_million,energy\n"
+                   "product_cpu,products,cpu_per_million,energy,single_product_cpu,"
+                   "matrix_free_product_cpu,matrix_free_single_product_cpu\n"
                 << degree << ',' << solution.n_dofs << ',' << solution.iterations << ','
                 << set_up.cpu << ',' << solving.cpu << ',' << set_up.wall << ',' << solving.wall
                 << ',' << product << ','
                 << (product > 0. ? (set_up.cpu + solving.cpu) / product : 0.) << ','
                 << (set_up.cpu + solving.cpu) / solution.n_dofs * 1e6 << ',' << solution.energy
-                << std::endl;
+                << ',' << products[1] << ',' << products[2] << ',' << products[3] << std::endl;
   }
 } // namespace
 
