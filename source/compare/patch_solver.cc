@@ -2,7 +2,7 @@
 #include "tetradapt/compare/patch_solver.h"
 
 #include "tetradapt/compare/field_evaluator.h"
-#include "tetradapt/core/function_clones.h"
+#include "tetradapt/core/clones.h"
 
 namespace tetradapt::compare
 {

@@ -132,7 +132,7 @@ namespace tetradapt::compare
 
     /** Minus the stress of the solution, which is linear at most, at the points of a block,
      * whose positions it sets. */
-    TETRADAPT_PART_OF_CLONES void
+    TETRADAPT_INLINE void
     begin_block(const mesh::TetMesh &mesh,
                 const CellStress    &stress,
                 const unsigned int   cell,
@@ -164,7 +164,7 @@ namespace tetradapt::compare
           }
     }
 
-    TETRADAPT_PART_OF_CLONES double
+    TETRADAPT_INLINE double
     complementary_energy(const ElasticMatrices     &matrices,
                          const std::vector<double> &weights,
                          const PointBlock          &block)

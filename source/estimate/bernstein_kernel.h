@@ -2,11 +2,12 @@
 #ifndef tetradapt_estimate_bernstein_kernel_h
 #define tetradapt_estimate_bernstein_kernel_h
 
+#include "tetradapt/core/lanes.h"
+
 namespace tetradapt::estimate
 {
-  /** One number for each of eight cells, which are worked on at once. */
-  using Lanes                    = double __attribute__((vector_size(64)));
-  constexpr unsigned int n_lanes = 8;
+  using core::Lanes; // one number for each of eight cells
+  using core::n_lanes;
 
   // Plain arrays throughout: a function compiled for several processors does not inline
   // std::array's operator[].

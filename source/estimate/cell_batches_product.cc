@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "cell_batches.h"
 
-// Compiled for several processors; the one at hand is asked for at start.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define TETRADAPT_CLONES                                                                           \
-  __attribute__((target_clones("arch=skylake-avx512", "arch=haswell", "default")))
-#else
-#define TETRADAPT_CLONES
-#endif
+#include "tetradapt/core/clones.h"
 
 namespace tetradapt::estimate
 {
@@ -15,7 +9,7 @@ namespace tetradapt::estimate
   {
     /** Bernstein coefficients of hierarchical ones: vertices, middles of edges (for q =
      * 3), surplus of edges, of faces. */
-    inline __attribute__((always_inline)) void
+    TETRADAPT_INLINE void
     to_bernstein(const Lanes (&h)[10][3], Lanes (&c)[10][3])
     {
       for (unsigned int k = 0; k < 3; ++k)
@@ -29,7 +23,7 @@ namespace tetradapt::estimate
     }
 
     /** The transposed map, for forces. */
-    inline __attribute__((always_inline)) void
+    TETRADAPT_INLINE void
     from_bernstein(const Lanes (&c)[10][3], Lanes (&h)[10][3])
     {
       for (unsigned int k = 0; k < 3; ++k)
@@ -50,7 +44,7 @@ namespace tetradapt::estimate
     constexpr double       odd              = HierarchicalSurplus::odd_scale / 3.;
     constexpr double       face             = HierarchicalSurplus::face_scale / 6.;
 
-    inline __attribute__((always_inline)) void
+    TETRADAPT_INLINE void
     to_bernstein(const Lanes (&h)[20][3], Lanes (&c)[20][3])
     {
       for (unsigned int k = 0; k < 3; ++k)
@@ -75,7 +69,7 @@ namespace tetradapt::estimate
         }
     }
 
-    inline __attribute__((always_inline)) void
+    TETRADAPT_INLINE void
     from_bernstein(const Lanes (&c)[20][3], Lanes (&h)[20][3])
     {
       for (unsigned int k = 0; k < 3; ++k)
@@ -105,7 +99,7 @@ namespace tetradapt::estimate
     }
 
     template <unsigned int q>
-    inline __attribute__((always_inline)) void
+    TETRADAPT_INLINE void
     gather(const CellBatch<q> &batch, const double *x, Lanes (&h)[Bernstein<q>::n][3])
     {
       for (unsigned int a = 0; a < Bernstein<q>::n; ++a)
@@ -120,7 +114,7 @@ namespace tetradapt::estimate
 
     /** Forces of one batch, in hierarchical functions, of the values gathered in @p h. */
     template <unsigned int q>
-    inline __attribute__((always_inline)) void
+    TETRADAPT_INLINE void
     batch_forces(const CellBatch<q> &batch,
                  const Lanes (&h)[Bernstein<q>::n][3],
                  Lanes (&forces)[Bernstein<q>::n][3])
@@ -132,7 +126,7 @@ namespace tetradapt::estimate
     }
 
     template <unsigned int q>
-    inline __attribute__((always_inline)) void
+    TETRADAPT_INLINE void
     multiply_all(const std::vector<CellBatch<q>> &batches, const double *x, double *forces)
     {
       Lanes h[Bernstein<q>::n][3], f[Bernstein<q>::n][3];
@@ -153,7 +147,7 @@ namespace tetradapt::estimate
 
 
     template <unsigned int q>
-    inline __attribute__((always_inline)) void
+    TETRADAPT_INLINE void
     products_of_all(const std::vector<CellBatch<q>> &batches,
                     const double                    *x,
                     const double                    *y,

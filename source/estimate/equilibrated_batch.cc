@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/estimate/equilibrated_batch.h"
 
+#include "tetradapt/core/clones.h"
+
 #include <cmath>
 
 namespace tetradapt::estimate
@@ -21,7 +23,7 @@ namespace tetradapt::estimate
     };
 
     /** Sums of nine products each with the shape. */
-    TETRADAPT_PART_OF_CLONES void
+    TETRADAPT_INLINE void
     contract(const double *products, const Lanes *shape, Lanes *sums)
     {
       Lanes sum[9] = {};
@@ -33,7 +35,7 @@ namespace tetradapt::estimate
     }
 
     /** Products of @p n rows of @p table, of n_stress numbers, with @p x. */
-    TETRADAPT_PART_OF_CLONES void
+    TETRADAPT_INLINE void
     multiply(const double *table, const unsigned int n, const Lanes *x, Lanes *result)
     {
       for (unsigned int a = 0; a < n; a += 6, table += 6 * n_stress)
@@ -48,7 +50,7 @@ namespace tetradapt::estimate
     }
 
     /** Cholesky's factor in place, with the inverse of its diagonal. */
-    TETRADAPT_PART_OF_CLONES void
+    TETRADAPT_INLINE void
     factorise(Lanes *matrix)
     {
       for (unsigned int j = 0; j < n_free; ++j)
@@ -69,7 +71,7 @@ namespace tetradapt::estimate
     }
 
     /** x becomes factor^-1 x. */
-    TETRADAPT_PART_OF_CLONES void
+    TETRADAPT_INLINE void
     substitute(const Lanes *factor, Lanes *x)
     {
       for (unsigned int b = 0; b < n_free; ++b)
@@ -80,7 +82,7 @@ namespace tetradapt::estimate
         }
     }
 
-    TETRADAPT_PART_OF_CLONES void
+    TETRADAPT_INLINE void
     apply_shape(const Lanes *shape, const Lanes *stress, Lanes *strain)
     {
       Lanes        sum[6] = {};
@@ -100,7 +102,7 @@ namespace tetradapt::estimate
 
     /** Adds the stress that balances the quadratic body force: what is of degree 2 to
      * @p stress, of the other polynomials the energy. */
-    TETRADAPT_PART_OF_CLONES void
+    TETRADAPT_INLINE void
     add_quadratic(const CellBatch &batch, Lanes *stress, Lanes &energy)
     {
       const double *table = Element::quadratic_forces().data();

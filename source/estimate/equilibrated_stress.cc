@@ -83,9 +83,9 @@ namespace tetradapt::estimate
     states.compute(cell, state);
     for (unsigned int lane = 0; lane < CellBatch::size; ++lane)
       states.load(cell, state, faces, moments, *batch, lane);
-    std::vector<Lanes>  all(EquilibratedElement::n_stress);
+    Lanes               all[EquilibratedElement::n_stress];
     std::vector<double> stress;
-    minimal_stress(*batch, all.data());
+    minimal_stress(*batch, all);
     for (const Lanes &lanes : all)
       stress.push_back(lanes[0]);
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/estimate/equilibrated_sweeps.h"
 
-#include "tetradapt/estimate/equilibrated_clones.h"
+#include "tetradapt/core/clones.h"
+#include "tetradapt/core/lanes.h"
 
 #include <cmath>
 #include <cstring>
@@ -10,6 +11,7 @@ namespace tetradapt::estimate
 {
   namespace
   {
+    using core::Lanes;
     using State    = TractionRelaxation::State;
     using FaceMove = TractionRelaxation::FaceMove;
     using RingMove = TractionRelaxation::RingMove;
@@ -20,7 +22,7 @@ namespace tetradapt::estimate
     /** In place, row by row; the diagonal is inverted. Where it is nought, compared
      * with what it was (a move that no energy resists, or none but others make), its
      * inverse becomes zero: the move is not made. */
-    TETRADAPT_PART_OF_CLONES void
+    TETRADAPT_INLINE void
     cholesky(double *matrix, const unsigned int size)
     {
       for (unsigned int i = 0; i < size; ++i)
@@ -41,7 +43,7 @@ namespace tetradapt::estimate
         }
     }
 
-    TETRADAPT_PART_OF_CLONES void
+    TETRADAPT_INLINE void
     solve(const double *matrix, const unsigned int size, double *x)
     {
       for (unsigned int i = 0; i < size; ++i)
@@ -63,7 +65,7 @@ namespace tetradapt::estimate
     /** Components of a face's gradient along its moves: the tractions 4 l_s l_(s+1)
      * of the components that may change, then, if all may, a pull along each edge
      * at its ends. */
-    TETRADAPT_PART_OF_CLONES void
+    TETRADAPT_INLINE void
     restrict_to(const FaceMove &move, const double *g, double *x)
     {
       unsigned int k = 0;
@@ -80,7 +82,7 @@ namespace tetradapt::estimate
           }
     }
 
-    TETRADAPT_PART_OF_CLONES void
+    TETRADAPT_INLINE void
     prolongate(const FaceMove &move, const double *x, double *change)
     {
       for (unsigned int i = 0; i < 18; ++i)
@@ -155,7 +157,7 @@ namespace tetradapt::estimate
   namespace
   {
     /** gradient += sum of change[i] times row rows[i] of the cell's matrix. */
-    TETRADAPT_PART_OF_CLONES void
+    TETRADAPT_INLINE void
     update(double             *gradient,
            const float        *matrix,
            const unsigned int *rows,
@@ -179,7 +181,7 @@ namespace tetradapt::estimate
       std::memcpy(gradient, sum, sizeof(sum));
     }
 
-    TETRADAPT_PART_OF_CLONES void
+    TETRADAPT_INLINE void
     make(State &state, const FaceMove &move)
     {
       double gradient[18] = {}, x[12], change[18];
@@ -207,7 +209,7 @@ namespace tetradapt::estimate
           }
     }
 
-    TETRADAPT_PART_OF_CLONES void
+    TETRADAPT_INLINE void
     make(State &state, const RingMove &move)
     {
       double x[6] = {};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "stiffness_kernel.h"
 
-#include "tetradapt/core/function_clones.h"
+#include "tetradapt/core/clones.h"
 
 #include <cstddef>
 
@@ -25,7 +25,7 @@ namespace tetradapt::mechanics
     template <typename Number>
     struct Stress<Number, TangentForm::isotropic>
     {
-      static TETRADAPT_PART_OF_CLONES void
+      static TETRADAPT_INLINE void
       compute(const Number *tangent, unsigned int, const Number *G, Number *s)
       {
         constexpr unsigned int W      = stiffness_lanes<Number>;
@@ -41,7 +41,7 @@ namespace tetradapt::mechanics
     };
 
     template <typename Number>
-    TETRADAPT_PART_OF_CLONES void
+    TETRADAPT_INLINE void
     general_stress(const Number *D, const Number *G, Number *s)
     {
       constexpr unsigned int W    = stiffness_lanes<Number>;
@@ -63,7 +63,7 @@ namespace tetradapt::mechanics
     template <typename Number>
     struct Stress<Number, TangentForm::one_per_cell>
     {
-      static TETRADAPT_PART_OF_CLONES void
+      static TETRADAPT_INLINE void
       compute(const Number *tangent, unsigned int, const Number *G, Number *s)
       {
         general_stress(tangent, G, s);
@@ -73,7 +73,7 @@ namespace tetradapt::mechanics
     template <typename Number>
     struct Stress<Number, TangentForm::four_per_cell>
     {
-      static TETRADAPT_PART_OF_CLONES void
+      static TETRADAPT_INLINE void
       compute(const Number *tangent, unsigned int q, const Number *G, Number *s)
       {
         general_stress(tangent + 21 * q * stiffness_lanes<Number>, G, s);
@@ -87,7 +87,7 @@ namespace tetradapt::mechanics
      * a part common to all points and one node's value.
      */
     template <typename Number, TangentForm form>
-    TETRADAPT_PART_OF_CLONES void
+    TETRADAPT_INLINE void
     cell_forces(const Number *__restrict u,
                 const Number *__restrict gradients,
                 const Number *__restrict tangents,
@@ -173,7 +173,7 @@ namespace tetradapt::mechanics
     }
 
     template <typename Number, TangentForm form>
-    TETRADAPT_PART_OF_CLONES void
+    TETRADAPT_INLINE void
     apply(const StiffnessBatches<Number> &batches,
           unsigned int                    begin,
           unsigned int                    end,
@@ -226,7 +226,7 @@ namespace tetradapt::mechanics
 
     /** The own block of node @p n of a batch. */
     template <typename Number, TangentForm form>
-    TETRADAPT_PART_OF_CLONES void
+    TETRADAPT_INLINE void
     node_block(unsigned int n,
                const Number *__restrict gradients,
                const Number *__restrict tangents,
@@ -267,7 +267,7 @@ namespace tetradapt::mechanics
     }
 
     template <typename Number, TangentForm form>
-    TETRADAPT_PART_OF_CLONES void
+    TETRADAPT_INLINE void
     add_blocks(const StiffnessBatches<Number> &batches,
                unsigned int                    begin,
                unsigned int                    end,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/solve/block_rows.h"
 
-#include "tetradapt/core/function_clones.h"
+#include "tetradapt/core/clones.h"
 
 namespace tetradapt::solve
 {
@@ -9,7 +9,7 @@ namespace tetradapt::solve
   {
     /** y = A x; blocks of n columns of @p padded numbers each. */
     template <typename Number, unsigned int n, unsigned int padded>
-    TETRADAPT_PART_OF_CLONES void
+    TETRADAPT_INLINE void
     multiply(std::size_t         n_rows,
              const std::size_t  *begin,
              const unsigned int *columns,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/solve/galerkin.h"
 
-#include "tetradapt/core/function_clones.h"
+#include "tetradapt/core/clones.h"
 
 #include <algorithm>
 #include <type_traits>
@@ -46,7 +46,7 @@ namespace tetradapt::solve
 
     /** c += a b, with a n x n and b n x 6. */
     template <unsigned int n>
-    TETRADAPT_PART_OF_CLONES void
+    TETRADAPT_INLINE void
     multiply(const double *__restrict a, const double *__restrict b, double *__restrict c)
     {
       for (unsigned int i = 0; i < n; ++i)
@@ -57,7 +57,7 @@ namespace tetradapt::solve
 
     /** c += a^T b, with a n x 6 and b n x 6. */
     template <unsigned int n>
-    TETRADAPT_PART_OF_CLONES void
+    TETRADAPT_INLINE void
     multiply_transposed(const double *__restrict a,
                         const double *__restrict b,
                         double *__restrict c)

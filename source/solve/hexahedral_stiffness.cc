@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/solve/hexahedral_stiffness.h"
 
+#include "tetradapt/core/clones.h"
 #include "tetradapt/core/exceptions.h"
+#include "tetradapt/core/lanes.h"
 #include "tetradapt/mesh/hexahedral_field.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -9,22 +11,14 @@
 #include <algorithm>
 #include <cmath>
 
-// One version of the innermost loops for each width of the processor's vectors,
-// chosen when the program starts.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__AVX2__)
-#define TETRADAPT_EVERY_WIDTH                                                                      \
-  __attribute__((target_clones("default", "arch=haswell", "arch=skylake-avx512")))
-#else
-#define TETRADAPT_EVERY_WIDTH
-#endif
-
 namespace tetradapt::solve
 {
   namespace
   {
-    constexpr unsigned int n_lanes = 8;
-    /** One number of eight cells. */
-    using Lanes = double __attribute__((vector_size(8 * n_lanes)));
+    using core::Lanes; // one number of eight cells
+    using core::n_lanes;
+
+    constexpr unsigned int most_dofs = 3 * 4 * 4 * 4; ///< of a cell, degree 3
 
     constexpr unsigned int none = HexahedralGrid::none;
 
@@ -115,7 +109,7 @@ namespace tetradapt::solve
       fold<n>(y);
     }
 
-    TETRADAPT_EVERY_WIDTH void
+    TETRADAPT_CLONES void
     multiply(const Shape &shape, const double *matrix, Lanes *x, Lanes *y)
     {
       if (shape.n == 2)
@@ -296,8 +290,8 @@ namespace tetradapt::solve
   void
   HexahedralStiffness::vmult(Vector &forces, const Vector &displacement) const
   {
-    const Shape        shape = make_shape(space.degree);
-    std::vector<Lanes> x(shape.n_dofs), y(shape.n_dofs);
+    const Shape shape = make_shape(space.degree);
+    Lanes       x[most_dofs], y[most_dofs];
     displacement.update_ghost_values();
     forces                   = 0.;
     const double *const from = displacement.begin();
@@ -310,8 +304,8 @@ namespace tetradapt::solve
             const unsigned int cell = batches[batch + lane];
             if (cell == none)
               {
-                for (auto &values : x)
-                  values[lane] = 0.;
+                for (unsigned int i = 0; i < shape.n_dofs; ++i)
+                  x[i][lane] = 0.;
                 continue;
               }
             const unsigned int *const nodes = space.nodes(cell);
@@ -326,7 +320,7 @@ namespace tetradapt::solve
                     x[3 * i + c][lane] = value[c];
                 }
           }
-        multiply(shape, kinds[kind_of[batches[batch]]].matrix.data(), x.data(), y.data());
+        multiply(shape, kinds[kind_of[batches[batch]]].matrix.data(), x, y);
         for (unsigned int lane = 0; lane < n_lanes && batches[batch + lane] != none; ++lane)
           {
             const unsigned int        cell   = batches[batch + lane];

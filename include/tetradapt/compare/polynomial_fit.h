@@ -2,7 +2,7 @@
 #ifndef tetradapt_compare_polynomial_fit_h
 #define tetradapt_compare_polynomial_fit_h
 
-#include "tetradapt/core/function_clones.h"
+#include "tetradapt/core/clones.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace tetradapt::compare
 
   /** 1, x, y, z, x^2, y^2, z^2, xy, yz, zx up to degree @p degree (at most 2). */
   template <unsigned int degree>
-  TETRADAPT_PART_OF_CLONES void
+  TETRADAPT_INLINE void
   monomials(const double x, const double y, const double z, double *m)
   {
     m[0] = 1.;
@@ -44,7 +44,7 @@ namespace tetradapt::compare
    * @return false if a pivot is too small; then @p matrix holds nothing of use.
    */
   template <unsigned int n>
-  TETRADAPT_PART_OF_CLONES bool
+  TETRADAPT_INLINE bool
   factorize(double (&matrix)[n][n], double (&scale)[n], const double smallest_pivot)
   {
     for (unsigned int i = 0; i < n; ++i)
@@ -78,7 +78,7 @@ namespace tetradapt::compare
   /** Solves with what factorize() left; @p x holds the right-hand side, then the
    * solution. */
   template <unsigned int n>
-  TETRADAPT_PART_OF_CLONES void
+  TETRADAPT_INLINE void
   solve_factorized(const double (&matrix)[n][n], const double (&scale)[n], double *x)
   {
     for (unsigned int i = 0; i < n; ++i)
@@ -117,7 +117,7 @@ namespace tetradapt::compare
     }
 
     /** Adds a point with its six values. */
-    TETRADAPT_PART_OF_CLONES void
+    TETRADAPT_INLINE void
     add(const double x, const double y, const double z, const double *values)
     {
       double m[n];

@@ -66,7 +66,7 @@ namespace tetradapt::compare
     };
 
     /** Adds the recovered stress at the points of a block. */
-    TETRADAPT_PART_OF_CLONES void
+    TETRADAPT_INLINE void
     add_at(const unsigned int cell, PointBlock &block) const
     {
       for (unsigned int i = 0; i < 4; ++i)
@@ -131,7 +131,7 @@ namespace tetradapt::compare
 
     /** Adds corner @p i's barycentric coordinates times its patch's polynomial. */
     template <unsigned int degree>
-    TETRADAPT_PART_OF_CLONES void
+    TETRADAPT_INLINE void
     add_polynomial(const unsigned int patch,
                    const unsigned int vertex,
                    const unsigned int i,

@@ -2,11 +2,13 @@
 #ifndef tetradapt_estimate_equilibrated_batch_h
 #define tetradapt_estimate_equilibrated_batch_h
 
-#include "tetradapt/estimate/equilibrated_clones.h"
+#include "tetradapt/core/lanes.h"
 #include "tetradapt/estimate/equilibrated_element.h"
 
 namespace tetradapt::estimate
 {
+  using core::Lanes;
+
   /**
    * Eight cells whose energies int s : C^-1 : s are minimised over the stresses s
    * that equilibrate given loads, at once; see EquilibratedElement.
