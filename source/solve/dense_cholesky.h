@@ -4,6 +4,7 @@
 
 #include "tetradapt/solve/block_rows.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tetradapt::solve

@@ -6,6 +6,7 @@
 #include "dense_cholesky.h"
 #include "node_exchange.h"
 
+#include <deal.II/base/array_view.h>
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>

@@ -60,6 +60,26 @@ namespace
               << "\n  largest displacement " << largest << "\n  weighted sum " << weighted << '\n';
     check("  the same on every rank", range.min == range.max);
   }
+
+  /** So few cells that a rank owns nodes without their neighbours. */
+  void
+  few_cells(const unsigned int degree, const bool print)
+  {
+    scene::Scene scene     = everything();
+    scene.solver.tolerance = 1e-12;
+    scene.supports.resize(1); // the faces are too large for the rail
+    const auto body      = box(Point<3>(3, 1, 1), {{2, 1, 1}}, 0., 1.5);
+    scene.solver.type    = SolverType::direct;
+    const auto direct    = solve_scene(scene, body, degree);
+    scene.solver.type    = SolverType::cg;
+    const auto iterative = solve_scene(scene, body, degree);
+    if (print)
+      check("a dozen cells, P" + std::to_string(degree) + ", energy",
+            iterative.energy,
+            direct.energy,
+            std::abs(direct.energy),
+            1e-9);
+  }
 } // namespace
 
 int
@@ -70,4 +90,6 @@ main(int argc, char *argv[])
   for (const unsigned int degree : {1, 2})
     for (const SolverType type : {SolverType::cg, SolverType::direct})
       run(degree, type, first);
+  for (const unsigned int degree : {1, 2})
+    few_cells(degree, first);
 }
