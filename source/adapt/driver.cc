@@ -4,6 +4,7 @@
 #include "tetradapt/adapt/cycle_estimates.h"
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/on_first_rank.h"
+#include "tetradapt/mesh/mesh_checks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,6 +24,14 @@ namespace tetradapt::adapt
       MPI_Comm_rank(communicator, &rank);
       return rank == 0;
     }
+
+    /** Degrees. On cells of 0.1 degree displacements and estimates still have seven
+     * digits. */
+    constexpr double flat_angle = 0.01;
+
+    /** Energies, of which roots and squares are taken, that are within the range of
+     * double precision with room for both. */
+    constexpr double smallest_energy = 1e-200, largest_energy = 1e200;
 
     double
     largest_norm(const std::vector<dealii::Tensor<1, 3>> &values)
@@ -105,10 +114,24 @@ namespace tetradapt::adapt
         if (!is_tested)
           log.info("Meshes are accepted without a look at their energy: " + reason + ".");
       }
+    warn_of_flat_cells();
     start.reset();
     predicted_error = 0.;
     log.info((number == 0 ? "Initial mesh: " : "Mesh " + std::to_string(number) + ": ")
              + describe_mesh(*mesh));
+  }
+
+  void
+  Driver::warn_of_flat_cells() const
+  {
+    const double angle = current.record.min_dihedral;
+    if (!(angle < flat_angle))
+      return;
+    std::ostringstream text;
+    text << "The mesh has nearly flat tetrahedra, with dihedral angles down to " << angle
+         << " degrees: results and estimates lose digits there, the estimator 'equilibrated' most "
+            "of all. Repair the mesh in the program that made it.";
+    log.warning(text.str());
   }
 
   void
@@ -179,13 +202,47 @@ namespace tetradapt::adapt
         cycle.record.iterations_to_tolerance = cycle.solution.iterations_to_tolerance;
         cycle.record.algebraic_error         = cycle.solution.algebraic_error;
       }
-    if (!std::isfinite(cycle.record.strain_energy) || !std::isfinite(cycle.record.max_displacement))
-      throw core::NumericalError(
-        "The solution is not finite. Look at the size of the loads and material constants: their "
-        "product leaves the range of double precision.");
+    check_range(cycle.record);
     cycle.comparison = std::make_unique<estimate::Comparison>(
       cycle.solution.displacement, *materials, scene.truth, sampling, communicator);
     return cycle;
+  }
+
+  void
+  Driver::check_range(const CycleRecord &record) const
+  {
+    const char *advice = " Choose units in which loads, Young moduli and lengths are neither tiny "
+                         "nor huge.";
+    if (!std::isfinite(record.energy) || !std::isfinite(record.strain_energy)
+        || !std::isfinite(record.max_displacement))
+      throw core::NumericalError("The solution is not finite: the product of loads, material "
+                                 "constants and lengths leaves the range of double precision."
+                                 + std::string(advice));
+    double modulus = 0.;
+    for (const auto &material : scene.materials)
+      modulus = std::max(modulus, material.young_modulus);
+    const auto   box    = mesh::bounding_box(*mesh);
+    const double extent = (box.second - box.first).norm();
+    // A body that moves as a whole has no energy; it would have this one if it were strained.
+    const double possible = modulus * extent * record.max_displacement * record.max_displacement;
+    if (std::abs(record.energy) > largest_energy
+        || (record.max_displacement > 0. && possible < smallest_energy))
+      {
+        std::ostringstream text;
+        text << "The largest displacement is " << record.max_displacement << " and the energy "
+             << record.energy << "; errors can be told of energies between " << smallest_energy
+             << " and " << largest_energy << '.' << advice;
+        throw core::NumericalError(text.str());
+      }
+    if (record.cycle == 0 && drive == estimate::Drive::loads && record.max_displacement > extent)
+      {
+        std::ostringstream text;
+        text << "The largest displacement, " << record.max_displacement
+             << ", is larger than the body, " << extent
+             << ", but linear elasticity holds for small displacements only. Look at the units of "
+                "loads, lengths and Young moduli: N, mm and MPa go together, and N, m and Pa.";
+        log.warning(text.str());
+      }
   }
 
   bool

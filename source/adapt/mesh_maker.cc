@@ -5,6 +5,7 @@
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/on_first_rank.h"
 #include "tetradapt/mesh/body_complex.h"
+#include "tetradapt/mesh/boundary_projection.h"
 #include "tetradapt/mesh/mesh_broadcast.h"
 #include "tetradapt/mesh/mesh_factory.h"
 #include "tetradapt/mesh/red_refinement.h"
@@ -14,7 +15,10 @@
 namespace tetradapt::adapt
 {
   MeshMaker::MeshMaker(const scene::Scene &scene, MPI_Comm communicator, const core::Log &log)
-    : scene(scene), communicator(communicator), log(log), tetgen(scene.tetgen)
+    : scene(scene), communicator(communicator), log(log),
+      tetgen(mesh::quality_for_projection(scene.tetgen,
+                                          scene.mesh.projection
+                                            != scene::MeshParameters::Projection::none))
   {
     core::on_first_rank(communicator, [&]() { projection = mesh::make_projection(scene.mesh); });
   }

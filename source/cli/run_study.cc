@@ -209,7 +209,11 @@ namespace tetradapt::cli
     std::string directory;
     core::on_first_rank(communicator, [&] {
       check_study_inputs(study, runs);
-      const report::OutputDirectory folder(study);
+      const report::OutputDirectory     folder(study);
+      std::vector<const scene::Scene *> scenes;
+      for (const StudyRun &run : runs)
+        scenes.push_back(&run.scene);
+      folder.remove_other_runs(scenes);
       folder.write_parameters(scene::effective_parameters(study));
       directory = folder.path();
     });

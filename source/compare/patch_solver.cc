@@ -100,28 +100,32 @@ namespace tetradapt::compare
   }
 
   template <unsigned int degree>
-  TETRADAPT_CLONES void
-  PatchSolver<degree>::solve_inside()
+  TETRADAPT_CLONES bool
+  PatchSolver<degree>::invert_weights(InnerSystem &system)
   {
-    constexpr unsigned int n_rows = 3 * n_lower;
-    // W^-1, and g = W^-1 targets.
-    double inverse[n_lower][n_lower], inverse_scale[n_lower];
+    double inverse_scale[n_lower];
     if (!factorize(weights, inverse_scale, 1e-10))
-      return; // cells in a plane: the fit to the samples is all there is
+      return false;
     for (unsigned int i = 0; i < n_lower; ++i)
       {
-        std::fill(inverse[i], inverse[i] + n_lower, 0.);
-        inverse[i][i] = 1.;
-        solve_factorized(weights, inverse_scale, inverse[i]);
+        std::fill(system.inverse[i], system.inverse[i] + n_lower, 0.);
+        system.inverse[i][i] = 1.;
+        solve_factorized(weights, inverse_scale, system.inverse[i]);
       }
     for (auto &target : targets)
       solve_factorized(weights, inverse_scale, target);
+    return true;
+  }
 
-    // Columns A^-1 D_j^T, D_j the derivative with respect to x_j; and D_l A^-1 D_j^T.
-    double columns[3][n_lower][n], slopes[3][3][n_lower][n_lower] = {};
+  template <unsigned int degree>
+  TETRADAPT_CLONES void
+  PatchSolver<degree>::find_columns(InnerSystem &system) const
+  {
+    auto &columns = system.columns;
+    std::fill(&columns[0][0][0], &columns[0][0][0] + 3 * n_lower * n, 0.);
+    std::fill(&system.slopes[0][0][0][0], &system.slopes[0][0][0][0] + 9 * n_lower * n_lower, 0.);
     for (unsigned int j = 0; j < 3; ++j)
       {
-        std::fill(&columns[j][0][0], &columns[j][0][0] + n_lower * n, 0.);
         for (unsigned int k = 0; k < n_derivatives[degree]; ++k)
           columns[j][derivatives[j][k].to][derivatives[j][k].of] = derivatives[j][k].factor;
         for (unsigned int r = 0; r < n_lower; ++r)
@@ -129,22 +133,29 @@ namespace tetradapt::compare
         for (unsigned int l = 0; l < 3; ++l)
           for (unsigned int k = 0; k < n_derivatives[degree]; ++k)
             for (unsigned int r = 0; r < n_lower; ++r)
-              slopes[l][j][derivatives[l][k].to][r]
+              system.slopes[l][j][derivatives[l][k].to][r]
                 += derivatives[l][k].factor * columns[j][r][derivatives[l][k].of];
       }
+  }
+
+  template <unsigned int degree>
+  TETRADAPT_CLONES bool
+  PatchSolver<degree>::find_multipliers(const InnerSystem &system,
+                                        double (&multipliers)[3 * n_lower]) const
+  {
     // Equation i is the sum over j of the derivatives of component (i,j) by x_j.
-    double schur[n_rows][n_rows], schur_scale[n_rows], multipliers[n_rows];
+    double schur[3 * n_lower][3 * n_lower], schur_scale[3 * n_lower];
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int r = 0; r < n_lower; ++r)
         {
           for (unsigned int k = 0; k < 3; ++k)
             for (unsigned int s = 0; s < n_lower; ++s)
               {
-                double sum = i == k ? inverse[r][s] : 0.;
+                double sum = i == k ? system.inverse[r][s] : 0.;
                 for (unsigned int j = 0; j < 3; ++j)
                   for (unsigned int l = 0; l < 3; ++l)
                     sum += inverse_metric[stress_index[i][j]][stress_index[k][l]]
-                           * slopes[j][l][r][s];
+                           * system.slopes[j][l][r][s];
                 schur[n_lower * i + r][n_lower * k + s] = sum;
               }
           multipliers[n_lower * i + r] = -targets[i][r];
@@ -155,14 +166,28 @@ namespace tetradapt::compare
           multipliers[n_lower * i + derivatives[j][k].to]
             += derivatives[j][k].factor * solution[stress_index[i][j]][derivatives[j][k].of];
     if (!factorize(schur, schur_scale, 1e-14))
-      return;
+      return false;
     solve_factorized(schur, schur_scale, multipliers);
+    return true;
+  }
+
+  template <unsigned int degree>
+  TETRADAPT_CLONES void
+  PatchSolver<degree>::solve_inside()
+  {
+    InnerSystem system;
+    double      multipliers[3 * n_lower];
+    if (!invert_weights(system))
+      return; // cells in a plane: the fit to the samples is all there is
+    find_columns(system);
+    if (!find_multipliers(system, multipliers))
+      return;
     double change[6][n] = {};
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int j = 0; j < 3; ++j)
         for (unsigned int r = 0; r < n_lower; ++r)
           for (unsigned int m = 0; m < n; ++m)
-            change[stress_index[i][j]][m] += multipliers[n_lower * i + r] * columns[j][r][m];
+            change[stress_index[i][j]][m] += multipliers[n_lower * i + r] * system.columns[j][r][m];
     for (unsigned int a = 0; a < 6; ++a)
       for (unsigned int b = 0; b < 6; ++b)
         if (inverse_metric[a][b] != 0.)

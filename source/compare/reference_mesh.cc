@@ -19,10 +19,10 @@ namespace tetradapt::compare
       scene::TetgenParameters quality    = scene.tetgen;
       quality.radius_edge_ratio          = parameters.radius_edge_ratio;
       quality.dihedral_angle             = parameters.dihedral_angle;
-      const mesh::Tetgen tetgen(quality);
-      log.progress("reference: TetGen refines the initial mesh");
       // A reference of the same body must have the same boundary.
-      const auto    projection  = mesh::make_projection(scene.mesh);
+      const auto         projection = mesh::make_projection(scene.mesh);
+      const mesh::Tetgen tetgen(mesh::quality_for_projection(quality, projection != nullptr));
+      log.progress("reference: TetGen refines the initial mesh");
       mesh::TetMesh mesh        = initial_mesh;
       bool          cap_reached = false;
       if (parameters.volume_bound > 0.)

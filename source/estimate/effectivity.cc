@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/estimate/effectivity.h"
 
-#include "tetradapt/core/expression.h"
+#include "tetradapt/scene/moved_supports.h"
 
 #include <cmath>
 #include <sstream>
@@ -11,16 +11,7 @@ namespace tetradapt::estimate
   Drive
   drive_of(const scene::Scene &scene)
   {
-    bool moved = false;
-    for (const auto &support : scene.supports)
-      for (unsigned int i = 0; i < 3; ++i)
-        if (support.components[i])
-          {
-            const core::Expression value(support.displacement[i],
-                                         "Supports/" + support.name + "/Displacement");
-            moved = moved || !value.is_constant() || value(dealii::Point<3>()) != 0.;
-          }
-    if (!moved)
+    if (!scene::moves_supports(scene))
       return Drive::loads;
     return scene.loads.empty() ? Drive::displacement : Drive::both;
   }

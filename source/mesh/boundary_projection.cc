@@ -254,6 +254,18 @@ namespace tetradapt::mesh
              : std::make_unique<BoundaryProjection>(parameters);
   }
 
+  scene::TetgenParameters
+  quality_for_projection(const scene::TetgenParameters &parameters, const bool is_projected)
+  {
+    scene::TetgenParameters quality = parameters;
+    if (is_projected)
+      {
+        quality.radius_edge_ratio = std::max(parameters.radius_edge_ratio, 2.);
+        quality.dihedral_angle    = 0.;
+      }
+    return quality;
+  }
+
   std::function<void(TetMesh &)>
   project_on(const BoundaryProjection *projection)
   {

@@ -171,7 +171,7 @@ namespace tetradapt::mesh
       {
         log.progress("TetGen refines to Mesh/Size");
         SizeReport report;
-        mesh = mesh_with_size(Tetgen(scene.tetgen),
+        mesh = mesh_with_size(Tetgen(quality_for_projection(scene.tetgen, projection != nullptr)),
                               mesh,
                               core::Expression(scene.mesh.size, "Mesh/Size"),
                               &report,

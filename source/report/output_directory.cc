@@ -165,6 +165,46 @@ namespace tetradapt::report
   }
 
   void
+  OutputDirectory::remove_other_runs(const std::vector<const scene::Scene *> &runs) const
+  {
+    std::vector<std::string> names;
+    for (const scene::Scene *run : runs)
+      names.push_back(fs::path(path_of(*run)).filename().string());
+    try
+      {
+        std::vector<fs::path> folders;
+        for (const auto &entry : fs::directory_iterator(directory))
+          {
+            const std::string name = entry.path().filename().string();
+            if (fs::is_directory(entry.symlink_status())
+                && is_number(name.substr(0, name.find('-'))) && name.find('-') != std::string::npos
+                && fs::exists(entry.path() / "parameters.prm")
+                && fs::exists(entry.path() / "log.txt")
+                && std::find(names.begin(), names.end(), name) == names.end())
+              folders.push_back(entry.path());
+          }
+        for (const fs::path &folder : folders)
+          {
+            std::vector<fs::path> stale = stale_files(folder, scene_name);
+            stale.push_back(folder / "parameters.prm");
+            for (const scene::Scene *run : runs)
+              check_not_read(*run, stale);
+            for (const fs::path &path : stale)
+              fs::remove(path);
+            for (const fs::path &path : {folder / "plots", folder})
+              if (fs::is_directory(path) && fs::is_empty(path))
+                fs::remove(path);
+          }
+      }
+    catch (const fs::filesystem_error &e)
+      {
+        throw core::InputError("Cannot clear the output directory '" + directory
+                               + "' of an earlier study's runs: " + e.code().message()
+                               + ". Choose another one in Output.");
+      }
+  }
+
+  void
   OutputDirectory::write_parameters(const std::string &content) const
   {
     core::write_file(file("parameters.prm"), content);

@@ -53,7 +53,9 @@ namespace tetradapt::scene
              p.safeguard,
              yes_no_codec(),
              "adaptive: do not accept a mesh whose energy says that the solution became worse: "
-             "refine the one before more strongly, then uniformly.");
+             "refine the one before more strongly, then uniformly. Nor go on when the reference "
+             "that drives (energy, ren) is hardly better than the mesh: its error is at least 0.7 "
+             "times the mesh's.");
       binder("Coarsening",
              p.coarsening,
              yes_no_codec(),

@@ -100,11 +100,14 @@ namespace tetradapt::scene
         "Radius-edge ratio",
         p.radius_edge_ratio,
         number_codec(),
-        "Largest ratio of circumradius to shortest edge (-q). Smaller is stricter; at least 1.1.");
-      binder("Minimum dihedral angle",
-             p.dihedral_angle,
-             number_codec(),
-             "Smallest dihedral angle to aim at, in degrees (-q/), at most 20; 0: none.");
+        "Largest ratio of circumradius to shortest edge (-q). Smaller is stricter; at least 1.1. "
+        "Meshes that follow a curved boundary (Mesh/Projection) are refined with 2 at least.");
+      binder(
+        "Minimum dihedral angle",
+        p.dihedral_angle,
+        number_codec(),
+        "Smallest dihedral angle to aim at, in degrees (-q/), at most 20; 0: none. Not used for "
+        "meshes that follow a curved boundary.");
       binder("Optimisation level",
              p.optimisation_level,
              count_codec(),

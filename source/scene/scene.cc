@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/scene/scene.h"
 
+#include "tetradapt/scene/moved_supports.h"
 #include "tetradapt/scene/words.h"
 
 #include "checks.h"
@@ -148,6 +149,11 @@ namespace tetradapt::scene
               path,
               "exact needs the exact displacement. Give Truth/Displacement, or use spr or another "
               "estimator that does not need it.");
+      require(which != ErrorEstimator::richardson || scene.loads.empty() || !moves_supports(scene),
+              path,
+              "richardson extrapolates the energy, which tells the error if loads alone or "
+              "prescribed displacements alone deform the body, but this scene has both. Use spr "
+              "or another estimator.");
       require(which != ErrorEstimator::goal || !scene.goals.empty(),
               path,
               "the estimator 'goal' needs a goal. Add a subsection to Goals.");
@@ -239,6 +245,7 @@ namespace tetradapt::scene
     mesh.check();
     tetgen.check();
     check_materials(*this);
+    check_stiffness(*this);
     check_supports(*this);
     truth.check();
     check_loads(*this);

@@ -33,6 +33,15 @@ namespace tetradapt::scene
   void
   check_compatible(const SupportParameters &first, const SupportParameters &second);
 
+  /** @throws InputError if a Young modulus leaves the range in which energies can be
+   * computed, or if one is more than 1e12 times another. */
+  void
+  check_stiffness(const Scene &scene);
+
+  /** What to tell about a contrast of Young moduli that costs digits; empty: nothing. */
+  std::string
+  stiffness_warning(const Scene &scene);
+
   /**
    * Compares the gradient of the truth with differences of its displacement at
    * some points of a box; nothing is done for other meshes, whose inside is not

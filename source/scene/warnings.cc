@@ -91,6 +91,8 @@ namespace tetradapt::scene
                              + "/Type: the temperature does nothing, for no material it acts on "
                                "has a Thermal expansion.");
       }
+    if (const std::string message = stiffness_warning(*this); !message.empty())
+      messages.push_back(message);
     if (tetgen.radius_edge_ratio < 1.1)
       messages.push_back("TetGen/Radius-edge ratio: TetGen may need very long with a bound below "
                          "1.1.");

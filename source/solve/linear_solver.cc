@@ -16,6 +16,9 @@ namespace tetradapt::solve
     /** Largest relative error in the energy norm by the tolerance of the residual. */
     constexpr double error_by_residual = 10.;
 
+    /** Of the norm of loads: products with residuals 1e-16 times as large still count. */
+    constexpr double smallest_square = 1e-250;
+
     /** Least energy of a solution by that of what was added to the first iterate. */
     constexpr double least_energy = 1e-12;
 
@@ -125,15 +128,26 @@ namespace tetradapt::solve
   }
 
   double
-  LinearSolver::load_norm(const Vector &right_hand_side) const
+  LinearSolver::load_norm(const Vector &right_hand_side, const std::string &load) const
   {
     // What is left of the residual when only the prescribed displacements are applied.
-    double sum = 0.;
+    double sum = 0., largest = 0.;
     for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
       for (unsigned int c = 0; c < 3; ++c)
         if (!prescribed.is_fixed(space.field_node(node), c))
-          sum += std::pow(right_hand_side.local_element(3 * node + c), 2);
-    return std::sqrt(dealii::Utilities::MPI::sum(sum, space.communicator()));
+          {
+            const double value = right_hand_side.local_element(3 * node + c);
+            sum += value * value;
+            largest = std::max(largest, std::abs(value));
+          }
+    sum     = dealii::Utilities::MPI::sum(sum, space.communicator());
+    largest = dealii::Utilities::MPI::max(largest, space.communicator());
+    // Squares of tiny loads vanish, and nothing would move.
+    if (sum < smallest_square && largest > 0.)
+      throw core::NumericalError(load
+                                 + " are so small that their squares leave the range of double "
+                                   "precision. Choose other units.");
+    return std::sqrt(sum);
   }
 
   LinearResult
@@ -147,7 +161,7 @@ namespace tetradapt::solve
         direct->solve(right_hand_side, x);
         return {0, 0, 0., description};
       }
-    const double norm = load_norm(right_hand_side);
+    const double norm = load_norm(right_hand_side, load);
     if (!std::isfinite(norm))
       throw core::NumericalError(load
                                  + " are not finite. Look at their values and at the material "

@@ -49,6 +49,65 @@ namespace
     check("  and nothing is rejected", all && unsafe.n_rows() == 4);
   }
 
+  /** Cells of a regular mesh, some of which TetGen cuts and turns: worse than before, and
+   * again when more are cut. */
+  void
+  two_rejections()
+  {
+    std::cout << "two rejections" << std::endl;
+    write("twice.prm", R"(
+subsection Mesh
+  set Type         = bricks
+  set Upper corner = 3, 1, 1
+  set Cells        = 8x2x2
+end
+subsection Materials
+  subsection m
+    set Young modulus = 1000
+    set Poisson ratio = 0.45
+  end
+end
+subsection Supports
+  subsection s
+    set Groups = x-min
+  end
+end
+subsection Loads
+  subsection l
+    set Groups = x-max
+    set Value  = 1; 0; 0
+  end
+end
+subsection TetGen
+  set Radius-edge ratio  = 2
+  set Optimisation level = 0
+end
+subsection Adaptivity
+  set Strategy       = adaptive
+  set Driver         = spr
+  set Marking        = fixed fraction
+  set Fraction       = 0.03
+  set Reduction      = 0.7
+  set Maximum cycles = 2
+end
+)");
+    const auto  result = run("--output-directory twice twice.prm");
+    const Table table("twice");
+    check("  two meshes rejected, then one accepted",
+          result.code == 0 && table.n_rows() == 4 && table.value("accepted", 0) == 1.
+            && table.value("accepted", 1) == 0. && table.value("accepted", 2) == 0.
+            && table.value("accepted", 3) == 1.);
+    check("  which has eight times the tetrahedra of the first",
+          table.value("tets", 3) == 8. * table.value("tets", 0));
+    check("  and more energy", table.value("energy", 3) > table.value("energy", 0));
+    check("  announced", contains(result.err, "each cut into eight"));
+    const auto limited
+      = run("--output-directory twice --set 'Adaptivity/Maximum tetrahedra=1000' twice.prm");
+    check("  not beyond a limit: the run says so",
+          limited.code == 0 && Table("twice").n_rows() == 3
+            && contains(limited.err, "two meshes made from that of cycle 0"));
+  }
+
   void
   growing_cells()
   {
@@ -134,6 +193,7 @@ int
 main()
 {
   rejection();
+  two_rejections();
   growing_cells();
   kept_sizes();
   early_stop();

@@ -130,6 +130,14 @@ main()
           && fs::exists("s3/plots/convergence_dofs.gp")
           && !fs::exists("s3/plots/convergence_dofs.svg"));
 
+  write("s3/01-P1-time-600-direct/notes.txt", "mine");
+  run("--quiet --output-directory s3 --set 'Study/time/Values=600 & cg' study.prm");
+  check("runs that the study had before are gone, other files stay",
+        !fs::exists("s3/02-P2-quadratic-time-600-direct")
+          && fs::exists("s3/01-P1-time-600-direct/notes.txt")
+          && !fs::exists("s3/01-P1-time-600-direct/log.txt")
+          && fs::exists("s3/02-P2-quadratic-time-600-cg"));
+
   refused("unknown parameter",
           "subsection a\nset Parameters = Solver/Tolerence\nset Values = 1\nend\n");
   refused("value that does not fit",

@@ -73,6 +73,12 @@ namespace tetradapt::adapt
     Cycle
     solve_cycle(unsigned int number);
     /** Whether the cycle is worse than the one that its mesh was made from. */
+    void
+    warn_of_flat_cells() const;
+    /** Warns of displacements that no small ones are. @throws core::NumericalError if the
+     * solution is not finite or its energy leaves the range in which errors can be told. */
+    void
+    check_range(const CycleRecord &record) const;
     bool
     is_rejected(Cycle &cycle);
     void

@@ -20,7 +20,8 @@ namespace tetradapt::adapt
     scene::ErrorEstimator which          = scene::ErrorEstimator::spr;
     bool                  is_energy_norm = true;
     double                global         = 0.; ///< in the estimator's unit
-    std::optional<double> relative;    ///< an energy norm over that of the exact, else the own solution
+    std::optional<double>
+      relative; ///< an energy norm over that of the exact, else the own solution
     std::optional<double> effectivity; ///< over the true error, where that is known
     /** Of the local indices eta_K / e_K, where an exact displacement is known: the
      * standard deviation of their natural logarithms, each weighted by e_K^2. 0: each cell's
@@ -104,8 +105,8 @@ namespace tetradapt::adapt
     const mechanics::MaterialMap &materials;
     const std::vector<double>    *indicators; ///< eta_K that drives, or null
     const std::vector<double>    *nodal_ren;  ///< one a node, or null
-    /** Wanted edge lengths at the mesh's points for the next mesh (in the last cycle:
-     * the lengths that the mesh has), or null. */
+    /** The edge lengths that this cycle's mesh has, one a point of the mesh (see
+     * obtained_sizes()), if the scene writes a size field; else null. */
     const std::vector<double> *node_sizes = nullptr;
   };
 

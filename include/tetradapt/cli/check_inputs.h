@@ -8,9 +8,10 @@ namespace tetradapt::cli
 {
   /**
    * Reads the files that a scene names and checks what needs no mesh generator:
-   * that volume meshes and surfaces are sound, and, where the first mesh is given
-   * (bricks, or a file that is not refined), that supports, loads and materials
-   * find their faces and regions there.
+   * that volume meshes and surfaces are sound (also the surface to project on and the
+   * reference's mesh), that a size field has sizes and an earlier run a displacement, and,
+   * where the first mesh is given (bricks, or a file that is not refined), that supports,
+   * loads and materials find their faces and regions there.
    *
    * @throws core::InputError as a run would.
    */

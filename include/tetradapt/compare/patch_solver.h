@@ -68,8 +68,25 @@ namespace tetradapt::compare
     collect_equilibrium(const Point<3> &center, const std::vector<unsigned int> &cells);
     void
     set_metric(const ElasticMatrices &elastic);
+    /** What the correction of a fit inside the body is made of; see solve_inside(). */
+    struct InnerSystem
+    {
+      double inverse[n_lower][n_lower];      ///< of the weights W of the residual of equilibrium
+      double columns[3][n_lower][n];         ///< A^-1 D_j^T, D_j the derivative by x_j
+      double slopes[3][3][n_lower][n_lower]; ///< D_l A^-1 D_j^T
+    };
+
+    /** Corrects the fit in solution so that the residual of equilibrium counts, too, by its
+     * multipliers; does nothing where that is not determined. */
     void
     solve_inside();
+    /** Sets the inverse and replaces targets by W^-1 targets; false if W is singular. */
+    bool
+    invert_weights(InnerSystem &system);
+    void
+    find_columns(InnerSystem &system) const;
+    bool
+    find_multipliers(const InnerSystem &system, double (&multipliers)[3 * n_lower]) const;
     bool
     solve_at_boundary(const Point<3> &center, const std::vector<unsigned int> &cells);
     void

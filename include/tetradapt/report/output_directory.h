@@ -5,6 +5,7 @@
 #include "tetradapt/scene/scene.h"
 
 #include <string>
+#include <vector>
 
 namespace tetradapt::report
 {
@@ -48,6 +49,18 @@ namespace tetradapt::report
     /** Writes parameters.prm, the complete effective input, given as text. */
     void
     write_parameters(const std::string &content) const;
+
+    /**
+     * Removes what runs have left in folders of this one that no run of a study writes to
+     * any more: folders with a number and a hyphen at the beginning of their name and with
+     * parameters.prm and log.txt inside. Only the files of a run are removed, and the folder
+     * if it is empty then.
+     *
+     * @param runs all runs of the study.
+     * @throws InputError if one of them reads a file that would be removed.
+     */
+    void
+    remove_other_runs(const std::vector<const scene::Scene *> &runs) const;
 
     /** What a user looks at after a run: one line a file that exists, saying what
      * it is. */

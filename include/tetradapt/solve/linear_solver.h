@@ -96,7 +96,7 @@ namespace tetradapt::solve
     const mechanics::LinearOperator<double> &
     matrix() const;
     double
-    load_norm(const Vector &right_hand_side) const;
+    load_norm(const Vector &right_hand_side, const std::string &load) const;
     LinearResult
     iterate(const Vector &right_hand_side, const LinearStop &stop, double norm, Vector &x) const;
     /** The error in the energy norm, relative to the solution, that the residual may hide. */
