@@ -46,6 +46,8 @@ namespace tetradapt::adapt
   std::string
   why_energy_cannot_tell(const scene::Scene &scene, const mesh::TetMesh &mesh)
   {
+    if (scene.formulation == scene::Formulation::mixed)
+      return "a solution in mixed form is no minimum of the energy";
     for (const auto &load : scene.loads)
       if (load.type == scene::LoadType::nodal_force)
         return "the forces at nodes of Loads/" + load.name + " grow with the mesh";

@@ -140,7 +140,7 @@ namespace tetradapt::compare
           for (unsigned int b = 0; b < 6; ++b)
             {
               const double metric
-                = 2. * problem.elastic->shear_modulus * problem.elastic->compliance[a][b];
+                = 2. * problem.elastic->shear_modulus * problem.elastic->metric[a][b];
               problem.matrix[a][b] += metric;
               problem.right[a] += metric * mean[b];
             }

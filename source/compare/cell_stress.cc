@@ -5,6 +5,8 @@
 
 #include <deal.II/lac/full_matrix.h>
 
+#include <algorithm>
+
 namespace tetradapt::compare
 {
   namespace
@@ -22,8 +24,33 @@ namespace tetradapt::compare
     inverse.gauss_jordan();
     for (unsigned int a = 0; a < 6; ++a)
       for (unsigned int b = 0; b < 6; ++b)
-        compliance[a][b] = inverse(a, b);
+        {
+          metric[a][b] = compliance[a][b] = inverse(a, b);
+          inverse_metric[a][b]            = stiffness[a][b];
+        }
     shear_modulus = (stiffness[3][3] + stiffness[4][4] + stiffness[5][5]) / 3.;
+  }
+
+  ElasticMatrices::ElasticMatrices(const mechanics::ConstitutiveLaw &law,
+                                   const mechanics::PressureForm    &form)
+    : shear_modulus(form.shear_modulus)
+  {
+    const double mu   = form.shear_modulus;
+    const double bulk = std::min(5. * mu, 1. / form.inverse_lambda + 2. / 3. * mu);
+    for (unsigned int a = 0; a < 6; ++a)
+      for (unsigned int b = 0; b < 6; ++b)
+        {
+          dealii::SymmetricTensor<2, 3> s, t;
+          s[pairs[a][0]][pairs[a][1]] = 1.;
+          t[pairs[b][0]][pairs[b][1]] = 1.;
+          compliance[a][b]
+            = .25 * (law.complementary_density(s + t) - law.complementary_density(s - t));
+          const double mean    = a < 3 && b < 3 ? 1. / 3. : 0.;
+          const double unit    = a == b ? (a < 3 ? 1. : .5) : 0.;
+          stiffness[a][b]      = 2. * mu * unit;
+          inverse_metric[a][b] = 2. * mu * (unit - mean) + 3. * bulk * mean;
+          metric[a][b]         = (unit * (a < 3 ? 1. : 4.) - mean) / (2. * mu) + mean / (3. * bulk);
+        }
   }
 
   CellMaterials::CellMaterials(const mechanics::MaterialMap &materials, const mesh::TetMesh &mesh)
@@ -39,7 +66,9 @@ namespace tetradapt::compare
             continue;
           }
         const auto found = of_region.emplace(region, matrices.size());
-        if (found.second)
+        if (found.second && materials.is_mixed())
+          matrices.emplace_back(materials.law(region), materials.pressure_form(region));
+        else if (found.second)
           matrices.emplace_back(materials.law(region));
         index[cell] = found.first->second;
       }
@@ -62,8 +91,12 @@ namespace tetradapt::compare
             const auto gradients = vertex_gradients(u_h, cell);
             for (unsigned int i = 0; i < 4; ++i)
               {
+                double *const stress = &values[24 * std::size_t(cell) + 6 * i];
                 engineering_strain(gradients[i], strain);
-                matrices.stress(strain, &values[24 * std::size_t(cell) + 6 * i]);
+                matrices.stress(strain, stress);
+                if (u_h.pressure)
+                  for (unsigned int c = 0; c < 3; ++c)
+                    stress[c] -= u_h.pressure->values[u_h.pressure->nodes->node(cell, i)];
               }
             continue;
           }

@@ -4,6 +4,7 @@
 #include "tetradapt/compare/field_evaluator.h"
 #include "tetradapt/compare/parallel.h"
 #include "tetradapt/compare/tet_quadrature.h"
+#include "tetradapt/mechanics/energy_density.h"
 
 #include <cmath>
 
@@ -101,14 +102,17 @@ namespace tetradapt::compare
       std::vector<double> sums(unsampled.size(), 0.);
       for (std::size_t i = 0; i < points.size(); ++i)
         {
-          const unsigned int k = slice.begin + i / rule.points.size();
-          const unsigned int q = i % rule.points.size();
-          const Tensor<2, 3> G = reference.gradient(locations[i].cell, locations[i].barycentric)
+          const unsigned int k  = slice.begin + i / rule.points.size();
+          const unsigned int q  = i % rule.points.size();
+          const Location    &at = locations[i];
+          const Tensor<2, 3> G  = reference.gradient(at.cell, at.barycentric)
                                  - u_h.gradient(unsampled[k], rule.points[q]);
-          sums[k] += rule.weights[q] * mesh::cell_volume(mesh, unsampled[k])
-                     * sampling.materials()
-                         .law(reference.mesh().regions[locations[i].cell])
-                         .energy_density(dealii::symmetrize(G));
+          const double p
+            = (reference.pressure ? reference.pressure->value(at.cell, at.barycentric) : 0.)
+              - u_h.pressure(unsampled[k], rule.points[q]);
+          const mechanics::EnergyDensity density(sampling.materials(),
+                                                 reference.mesh().regions[at.cell]);
+          sums[k] += rule.weights[q] * mesh::cell_volume(mesh, unsampled[k]) * density(G, p);
         }
       gather_slices(sums, unsampled.size(), 1, sampling.communicator());
       for (std::size_t k = 0; k < unsampled.size(); ++k)
@@ -136,7 +140,7 @@ namespace tetradapt::compare
     unsigned int        hint = dealii::numbers::invalid_unsigned_int;
     for (const unsigned int cell : sampling.own_cells())
       {
-        const auto &law = sampling.materials().law(ref_mesh.regions[cell]);
+        const mechanics::EnergyDensity density(sampling.materials(), ref_mesh.regions[cell]);
         ref_cell.reinit(cell);
         for (unsigned int q = 0; q < rule.points.size(); ++q)
           {
@@ -145,10 +149,13 @@ namespace tetradapt::compare
             const Tensor<1, 3> u = ref_cell.value(q) - evaluator.value(at.cell, at.barycentric);
             const Tensor<2, 3> G
               = ref_cell.gradient(q) - evaluator.gradient(at.cell, at.barycentric);
+            const double p
+              = (reference.pressure ? reference.pressure->value(cell, rule.points[q]) : 0.)
+                - evaluator.pressure(at.cell, at.barycentric);
             const double weight = ref_cell.weight(q);
             l2 += weight * u.norm_square();
             h1 += weight * G.norm_square();
-            sums[at.cell] += weight * law.energy_density(dealii::symmetrize(G));
+            sums[at.cell] += weight * density(G, p);
             sums[n_cells + at.cell] += 1.;
             result.largest_distance = std::max(result.largest_distance, at.distance);
           }

@@ -4,6 +4,7 @@
 #include "tetradapt/compare/field_evaluator.h"
 #include "tetradapt/compare/parallel.h"
 #include "tetradapt/compare/tet_quadrature.h"
+#include "tetradapt/mechanics/energy_density.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,12 +59,14 @@ namespace tetradapt::compare
     together(communicator, [&] {
       const ExactSolution  exact(truth);
       const FieldEvaluator evaluator(u_h);
+      // In mixed form the stress, without thermal strain, measures the energy.
+      const bool thermal = materials.is_mixed() && materials.has_thermal_strain();
       for (unsigned int cell = slice.begin; cell < slice.end; ++cell)
         {
-          const auto  &law    = materials.law(mesh.regions[cell]);
-          const double volume = mesh::cell_volume(mesh, cell);
-          const auto   h      = heights(mesh, cell);
-          double       energy = 0.;
+          const mechanics::EnergyDensity density(materials, mesh.regions[cell]);
+          const double                   volume = mesh::cell_volume(mesh, cell);
+          const auto                     h      = heights(mesh, cell);
+          double                         energy = 0.;
           for (unsigned int q = 0; q < rule.points.size(); ++q)
             {
               const mesh::Barycentric &b      = rule.points[q];
@@ -71,13 +74,19 @@ namespace tetradapt::compare
               const double             weight = volume * rule.weights[q];
               const Tensor<1, 3>       u      = exact.value(p);
               const Tensor<2, 3>       G      = exact.gradient(p, step(h, b, body));
-              const Tensor<2, 3>       dG     = G - evaluator.gradient(cell, b);
+              const Tensor<2, 3>       G_h    = evaluator.gradient(cell, b);
+              const Tensor<2, 3>       dG     = G - G_h;
               sums[0] += weight * (u - evaluator.value(cell, b)).norm_square();
               sums[1] += weight * dG.norm_square();
-              energy += weight * law.energy_density(dealii::symmetrize(dG));
+              Tensor<2, 3> free; // strain without stress
+              if (thermal)
+                free = materials.thermal_strain(mesh.regions[cell], p);
+              energy
+                += weight * density.of_error(G - free, G_h - free, evaluator.pressure(cell, b));
               sums[3] += weight * u.norm_square();
               sums[4] += weight * G.norm_square();
-              sums[5] += weight * law.energy_density(dealii::symmetrize(G));
+              sums[5]
+                += weight * materials.law(mesh.regions[cell]).energy_density(symmetrize(G - free));
             }
           result.cell_energy[cell] = std::sqrt(std::max(energy, 0.));
           sums[2] += energy;

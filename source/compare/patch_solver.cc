@@ -68,8 +68,8 @@ namespace tetradapt::compare
     for (unsigned int a = 0; a < 6; ++a)
       for (unsigned int b = 0; b < 6; ++b)
         {
-          metric[a][b]         = modulus * elastic.compliance[a][b];
-          inverse_metric[a][b] = elastic.stiffness[a][b] / modulus;
+          metric[a][b]         = modulus * elastic.metric[a][b];
+          inverse_metric[a][b] = elastic.inverse_metric[a][b] / modulus;
         }
   }
 

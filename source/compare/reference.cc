@@ -134,6 +134,8 @@ namespace tetradapt::compare
             {
               cached.mesh   = reference.displacement.tetrahedra->mesh();
               cached.values = reference.displacement.tetrahedra->values;
+              if (const auto &pressure = reference.displacement.tetrahedra->pressure)
+                cached.pressures = pressure->values;
             }
           cached.known_energy    = reference.known_energy.value_or(0.);
           cached.energy          = reference.energy;
@@ -155,18 +157,27 @@ namespace tetradapt::compare
     share(mesh::TetMesh                     mesh,
           unsigned int                      degree,
           std::vector<dealii::Tensor<1, 3>> values,
+          std::vector<double>               pressures,
           MPI_Comm                          communicator)
     {
       mesh::broadcast(mesh, communicator);
       core::broadcast_bytes(&degree, sizeof(degree), communicator);
       core::broadcast(values, communicator);
+      core::broadcast(pressures, communicator);
       auto field
         = std::make_shared<mesh::NodalField>(std::make_shared<const mesh::TetMesh>(std::move(mesh)),
                                              degree);
-      if (values.size() != field->values.size())
+      std::shared_ptr<mesh::PressureField> pressure;
+      if (!pressures.empty())
+        pressure = std::make_shared<mesh::PressureField>(field->mesh());
+      if (values.size() != field->values.size()
+          || (pressure && pressures.size() != pressure->values.size()))
         throw core::NumericalError("A reference was read whose displacement does not fit its mesh. "
                                    "Remove the cache directory and run again.");
       field->values = std::move(values);
+      if (pressure)
+        pressure->values = std::move(pressures);
+      field->pressure = pressure;
       return field;
     }
 
@@ -222,8 +233,11 @@ namespace tetradapt::compare
       if (numbers[4] != 0.)
         reference.displacement.hexahedra = share(std::move(cached), communicator);
       else
-        reference.displacement.tetrahedra
-          = share(std::move(cached.mesh), cached.degree, std::move(cached.values), communicator);
+        reference.displacement.tetrahedra = share(std::move(cached.mesh),
+                                                  cached.degree,
+                                                  std::move(cached.values),
+                                                  std::move(cached.pressures),
+                                                  communicator);
       log.info("Reference: reused from " + file + " (" + number(seconds) + " s saved)");
       return true;
     }
@@ -275,7 +289,7 @@ namespace tetradapt::compare
         for (const int region : mesh.regions)
           materials.law(region); // throws for one without material
       });
-      const auto field = share(std::move(mesh), degree, std::move(values), communicator);
+      const auto field = share(std::move(mesh), degree, std::move(values), {}, communicator);
       Reference  reference;
       reference.displacement.tetrahedra = field;
       reference.energy          = solve::compute_energies(*field, materials, communicator).energy;

@@ -15,7 +15,7 @@ namespace tetradapt::compare
   namespace
   {
     /** To be raised whenever the layout below changes. */
-    constexpr std::uint32_t format_version = 2;
+    constexpr std::uint32_t format_version = 3;
     constexpr std::uint32_t byte_order     = 0x01020304;
 
     struct Header
@@ -132,6 +132,7 @@ namespace tetradapt::compare
         }
       out.value(reference.degree);
       out.array(reference.values);
+      out.array(reference.pressures);
       for (const auto &planes : reference.planes)
         out.array(planes);
       out.value(std::uint64_t(reference.hexahedra.size()));
@@ -182,6 +183,7 @@ namespace tetradapt::compare
         }
       in.value(reference.degree);
       in.array(reference.values);
+      in.array(reference.pressures);
       for (auto &planes : reference.planes)
         in.array(planes);
       in.value(n);

@@ -72,6 +72,7 @@ namespace tetradapt::compare
     void
     describe_model(CanonicalText &text, const scene::Scene &scene)
     {
+      text("formulation", static_cast<int>(scene.formulation));
       for (const auto &material : scene.materials)
         {
           text("material", material.name);

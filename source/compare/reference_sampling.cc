@@ -4,6 +4,7 @@
 #include "tetradapt/compare/field_evaluator.h"
 #include "tetradapt/compare/parallel.h"
 #include "tetradapt/compare/tet_quadrature.h"
+#include "tetradapt/mechanics/energy_density.h"
 #include "tetradapt/mesh/space_curve.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -50,10 +51,12 @@ namespace tetradapt::compare
     // Exact for the gradient's square (degree 2) and the value's (degree 4).
     const TetQuadrature &for_gradients = tet_quadrature(2), &for_values = tet_quadrature(4);
     const FieldEvaluator evaluator(reference());
+    // In mixed form the stress, without thermal strain, measures the energy.
+    const bool thermal = material_map.is_mixed() && material_map.has_thermal_strain();
     for (const unsigned int cell : cells)
       {
-        const auto  &law    = material_map.law(mesh.regions[cell]);
-        const double volume = mesh::cell_volume(mesh, cell);
+        const mechanics::EnergyDensity density(material_map, mesh.regions[cell]);
+        const double                   volume = mesh::cell_volume(mesh, cell);
         for (unsigned int q = 0; q < for_values.points.size(); ++q)
           sums[0] += volume * for_values.weights[q]
                      * evaluator.value(cell, for_values.points[q]).norm_square();
@@ -61,8 +64,18 @@ namespace tetradapt::compare
           {
             const double       weight = volume * for_gradients.weights[q];
             const Tensor<2, 3> G      = evaluator.gradient(cell, for_gradients.points[q]);
+            const double       p      = evaluator.pressure(cell, for_gradients.points[q]);
             sums[1] += weight * G.norm_square();
-            sums[2] += weight * law.energy_density(dealii::symmetrize(G));
+            if (thermal)
+              {
+                const auto point = position(mesh, cell, for_gradients.points[q]);
+                sums[2]
+                  += weight
+                     * density(
+                       G - Tensor<2, 3>(material_map.thermal_strain(mesh.regions[cell], point)), p);
+              }
+            else
+              sums[2] += weight * density(G, p);
           }
       }
   }

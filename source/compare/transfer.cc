@@ -15,6 +15,16 @@ namespace tetradapt::compare
     const std::vector<Location> locations = locator.locate(nodes);
     for (unsigned int n = 0; n < nodes.size(); ++n)
       result.values[n] = field.value(locations[n].cell, locations[n].barycentric);
+    if (field.pressure)
+      {
+        const auto pressure = std::make_shared<mesh::PressureField>(result.mesh());
+        for (unsigned int n = 0; n < pressure->values.size(); ++n)
+          {
+            const Location &at  = locations[pressure->nodes->vertex(n)];
+            pressure->values[n] = field.pressure->value(at.cell, at.barycentric);
+          }
+        result.pressure = pressure;
+      }
     return result;
   }
 } // namespace tetradapt::compare

@@ -2,6 +2,7 @@
 #include "tetradapt/estimate/residual.h"
 
 #include "tetradapt/compare/cell_stress.h"
+#include "tetradapt/compare/field_evaluator.h"
 #include "tetradapt/compare/given_loads.h"
 #include "tetradapt/compare/stress_difference.h"
 #include "tetradapt/mesh/face_table.h"
@@ -113,6 +114,32 @@ namespace tetradapt::estimate
           area += area_vector(cell, v).norm();
         const double h = 12. * volume / area; // three times the volume over the mean area
         squares[cell] += constant * h * h / stress.materials()[cell].shear_modulus * sum * volume;
+      }
+
+      /** In mixed form: int_K |div u_h - tr eps_thermal + p_h / lambda|^2 / (1/(2 mu) + 1/lambda),
+       * the energy of the volume that the cell misses. */
+      void
+      add_volume(const unsigned int            cell,
+                 const mesh::NodalField       &u_h,
+                 const mechanics::MaterialMap &materials)
+      {
+        const int                     region    = mesh.regions[cell];
+        const mechanics::PressureForm form      = materials.pressure_form(region);
+        const auto                   &rule      = compare::tet_quadrature(2);
+        const auto                    gradients = compare::vertex_gradients(u_h, cell);
+        double                        sum       = 0.;
+        for (unsigned int q = 0; q < rule.points.size(); ++q)
+          {
+            const mesh::Barycentric &b       = rule.points[q];
+            double                   missing = form.inverse_lambda * u_h.pressure->value(cell, b);
+            for (unsigned int i = 0; i < 4; ++i)
+              missing += b[i] * trace(gradients[i]);
+            if (stress.has_thermal_strain())
+              missing -= trace(materials.thermal_strain(region, compare::position(mesh, cell, b)));
+            sum += rule.weights[q] * missing * missing;
+          }
+        squares[cell]
+          += mesh::cell_volume(mesh, cell) * sum / (0.5 / form.shear_modulus + form.inverse_lambda);
       }
 
       /** The face @p local of @p cell, between it and @p neighbor. */
@@ -269,7 +296,11 @@ namespace tetradapt::estimate
       const unsigned int   n_slots = 4 * mesh.n_cells();
       if (loads.has_body_force() || u_h.degree() == 2 || stress.has_thermal_strain())
         for (unsigned int cell = slice.begin; cell < slice.end; ++cell)
-          terms.add_inside(cell);
+          {
+            terms.add_inside(cell);
+            if (u_h.pressure)
+              terms.add_volume(cell, u_h, materials);
+          }
       mesh::FaceTable(mesh).for_each_triangle(
         [&](const mesh::FaceTable::Entry *first, const mesh::FaceTable::Entry *last) {
           const unsigned int cell = first->slot / 4;

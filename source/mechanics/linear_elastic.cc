@@ -3,16 +3,23 @@
 
 #include "tetradapt/core/exceptions.h"
 
+#include <cmath>
+
 namespace tetradapt::mechanics
 {
   LinearElastic::LinearElastic(double young_modulus, double poisson_ratio)
-    : lambda(young_modulus * poisson_ratio / ((1. + poisson_ratio) * (1. - 2. * poisson_ratio))),
+    : inverse_lambda((1. + poisson_ratio) * (1. - 2. * poisson_ratio)
+                     / (young_modulus * poisson_ratio)),
       mu(young_modulus / (2. * (1. + poisson_ratio)))
   {
-    if (!(young_modulus > 0.) || !(poisson_ratio > -1.) || !(poisson_ratio < 0.5))
-      throw core::InputError("Linear elasticity needs E > 0 and -1 < nu < 0.5, but E = "
+    if (!(young_modulus > 0.) || !(poisson_ratio > -1.) || !(poisson_ratio <= 0.5))
+      throw core::InputError("Linear elasticity needs E > 0 and -1 < nu <= 0.5, but E = "
                              + std::to_string(young_modulus)
                              + " and nu = " + std::to_string(poisson_ratio) + ".");
+    // Without volume change there is no volumetric stress to add to the deviator.
+    lambda = poisson_ratio == 0.5
+               ? -2. / 3. * mu
+               : young_modulus * poisson_ratio / ((1. + poisson_ratio) * (1. - 2. * poisson_ratio));
   }
 
   bool
@@ -46,7 +53,15 @@ namespace tetradapt::mechanics
   LinearElastic::complementary_density(const SymmetricTensor<2, 3> &stress) const
   {
     const double pressure_part = trace(stress);
-    return (stress * stress - lambda / (3. * lambda + 2. * mu) * pressure_part * pressure_part)
-           / (2. * mu);
+    const double ratio         = inverse_lambda == 0. ? 1. / 3. : lambda / (3. * lambda + 2. * mu);
+    return (stress * stress - ratio * pressure_part * pressure_part) / (2. * mu);
+  }
+
+  std::optional<PressureForm>
+  LinearElastic::pressure_form() const
+  {
+    if (!(inverse_lambda >= 0.) || !std::isfinite(inverse_lambda))
+      return std::nullopt;
+    return PressureForm{mu, inverse_lambda};
   }
 } // namespace tetradapt::mechanics

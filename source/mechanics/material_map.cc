@@ -59,7 +59,7 @@ namespace tetradapt::mechanics
   }
 
   MaterialMap::MaterialMap(const scene::Scene &scene, const mesh::TetMesh &mesh)
-    : materials(scene.materials)
+    : materials(scene.materials), mixed(scene.formulation == scene::Formulation::mixed)
   {
     // Materials that name regions come first; one that names none fills the rest.
     std::vector<const scene::MaterialParameters *> order;
@@ -130,6 +130,17 @@ namespace tetradapt::mechanics
   MaterialMap::parameters(int region) const
   {
     return *entry(region).parameters;
+  }
+
+  PressureForm
+  MaterialMap::pressure_form(int region) const
+  {
+    const auto form = law(region).pressure_form();
+    if (!form)
+      throw core::InputError("Materials/" + parameters(region).name
+                             + "/Poisson ratio: must be positive with Formulation = mixed, which "
+                               "is for nearly incompressible bodies.");
+    return *form;
   }
 
   bool

@@ -42,7 +42,18 @@ namespace tetradapt::report
                 const mechanics::MaterialMap     &materials,
                 const mechanics::ConstitutiveLaw &law)
     {
-      const bool thermal     = materials.has_thermal_strain();
+      const bool thermal = materials.has_thermal_strain();
+      if (u.pressure)
+        {
+          const auto   form = materials.pressure_form(u.mesh().regions[cell]);
+          Tensor<2, 3> strain(u.gradient(cell, centroid));
+          for (unsigned int q = 0; thermal && q < 4; ++q)
+            strain
+              -= 0.25
+                 * Tensor<2, 3>(materials.thermal_strain(u.mesh().regions[cell],
+                                                         position(u.mesh(), cell, gauss_point(q))));
+          return form.stress(strain, u.pressure->value(cell, centroid));
+        }
       const bool at_centroid = law.is_linear() || u.degree() == 1;
 
       SymmetricTensor<2, 3> stress;
@@ -74,6 +85,7 @@ namespace tetradapt::report
     CellStress result;
     result.stress.resize(6 * std::size_t(mesh.n_cells()));
     result.von_mises.resize(mesh.n_cells());
+    result.pressure.resize(mesh.n_cells());
     const mechanics::ConstitutiveLaw *law    = nullptr;
     int                               region = 0;
     for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
@@ -92,6 +104,8 @@ namespace tetradapt::report
         out[3]            = s[0][1];
         out[4]            = s[1][2];
         out[5]            = s[0][2];
+
+        result.pressure[cell] = -trace(s) / 3.;
 
         const double xy = s[0][0] - s[1][1], yz = s[1][1] - s[2][2], zx = s[2][2] - s[0][0];
         const double shear     = s[0][1] * s[0][1] + s[1][2] * s[1][2] + s[0][2] * s[0][2];

@@ -106,6 +106,8 @@ namespace tetradapt::report
         const CellStress stresses = cell_stress(event.displacement, event.materials);
         writer.add_cell_data("stress", 6, stresses.stress);
         writer.add_cell_data("von_mises", 1, stresses.von_mises);
+        if (event.displacement.pressure)
+          writer.add_cell_data("pressure", 1, stresses.pressure);
       }
     writer.add_boundary();
     writer.add_text("scene", scene_name);

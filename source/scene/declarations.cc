@@ -43,6 +43,12 @@ namespace tetradapt::scene
              scene.degree,
              count_codec(),
              "Polynomial degree of the displacement: 1 (linear) or 2 (quadratic).");
+      binder("Formulation",
+             scene.formulation,
+             word_codec<Formulation>(),
+             "The unknowns: the displacement, or in mixed form the displacement of degree 2 and "
+             "the pressure of degree 1, for materials that are nearly incompressible or, with a "
+             "Poisson ratio of 0.5, quite.");
     }
 
     /** Calls @p act with each part of @p scene inside its section. */

@@ -29,7 +29,10 @@ namespace tetradapt::scene
              p.young_modulus,
              number_codec(),
              "E, in the unit of pressure that the loads have.");
-      binder("Poisson ratio", p.poisson_ratio, number_codec(), "nu, between -1 and 0.5.");
+      binder("Poisson ratio",
+             p.poisson_ratio,
+             number_codec(),
+             "nu, between -1 and 0.5; 0.5 itself with Formulation = mixed only.");
       binder("Density", p.density, number_codec(), "Mass per volume; used by gravity.");
       binder("Thermal expansion",
              p.thermal_expansion,
@@ -205,12 +208,9 @@ namespace tetradapt::scene
     require(young_modulus > 0.,
             path + "Young modulus",
             "must be positive, not " + text_of(young_modulus) + ".");
-    require(poisson_ratio > -1. && poisson_ratio < 0.5,
+    require(poisson_ratio > -1. && poisson_ratio <= 0.5,
             path + "Poisson ratio",
-            "must be larger than -1 and smaller than 0.5, not " + text_of(poisson_ratio)
-              + (poisson_ratio >= 0.5 && poisson_ratio < 0.51
-                   ? ". An incompressible material needs 0.49 to 0.499 here."
-                   : "."));
+            "must be larger than -1 and at most 0.5, not " + text_of(poisson_ratio) + ".");
     require(density >= 0.,
             path + "Density",
             "must not be negative; it is " + text_of(density) + ".");

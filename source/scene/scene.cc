@@ -246,6 +246,7 @@ namespace tetradapt::scene
     tetgen.check();
     check_materials(*this);
     check_stiffness(*this);
+    check_formulation(*this);
     check_supports(*this);
     truth.check();
     check_loads(*this);

@@ -8,6 +8,16 @@
 
 namespace tetradapt::scene
 {
+  /** What the formulation asks of degree, materials, reference, goals and estimators.
+   * @throws core::InputError */
+  void
+  check_formulation(const Scene &scene);
+
+  /** One message for each material for which the displacement form is poor; see
+   * doc/mixed_form.md. */
+  std::vector<std::string>
+  locking_warnings(const Scene &scene);
+
   /** The name of the first estimator of the scene, the driver of an adaptive run first, that
    * tells an energy norm without reference or truth; empty: none. */
   std::string

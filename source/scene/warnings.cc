@@ -105,6 +105,8 @@ namespace tetradapt::scene
       messages.push_back("Reference/Degree: " + std::to_string(reference.degree)
                          + " is lower than the scene's Degree, " + std::to_string(degree)
                          + ": the reference may be worse than what is compared with it.");
+    for (const auto &message : locking_warnings(*this))
+      messages.push_back(message);
     for (auto &message : messages)
       message = with_place(message);
     return messages;

@@ -3,6 +3,14 @@
 
 namespace tetradapt::scene
 {
+  const Words<Formulation> &
+  words(Formulation)
+  {
+    static const Words<Formulation> table{{Formulation::displacement, "displacement"},
+                                          {Formulation::mixed, "mixed"}};
+    return table;
+  }
+
   const Words<MeshSource> &
   words(MeshSource)
   {

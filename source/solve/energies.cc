@@ -6,6 +6,18 @@
 
 namespace tetradapt::solve
 {
+  namespace
+  {
+    dealii::Point<3>
+    position(const mesh::TetMesh &mesh, const unsigned int cell, const mesh::Barycentric &b)
+    {
+      dealii::Point<3> x;
+      for (unsigned int i = 0; i < 4; ++i)
+        x += b[i] * dealii::Tensor<1, 3>(mesh.points[mesh.cells[cell][i]]);
+      return x;
+    }
+  } // namespace
+
   Energies
   compute_energies(const mesh::NodalField       &displacement,
                    const mechanics::MaterialMap &materials,
@@ -28,20 +40,31 @@ namespace tetradapt::solve
           {
             const auto             &p = quadrature.point(q);
             const mesh::Barycentric b{{1. - p[0] - p[1] - p[2], p[0], p[1], p[2]}};
-            const auto              strain  = symmetrize(displacement.gradient(cell, b));
-            const double            weight  = 6. * volume * quadrature.weight(q);
-            const double            density = law.energy_density(strain);
+            if (displacement.pressure)
+              {
+                const auto elastic = displacement.gradient(cell, b)
+                                     - dealii::Tensor<2, 3>(
+                                       materials.thermal_strain(region, position(mesh, cell, b)));
+                const double part
+                  = 6. * volume * quadrature.weight(q)
+                    * law.complementary_density(materials.pressure_form(region).stress(
+                      elastic, displacement.pressure->value(cell, b)));
+                sum.energy += part;
+                sum.stored += 0.5 * part;
+                continue;
+              }
+            const auto   strain  = symmetrize(displacement.gradient(cell, b));
+            const double weight  = 6. * volume * quadrature.weight(q);
+            const double density = law.energy_density(strain);
             sum.energy += weight * density;
             if (!materials.has_thermal_strain())
               {
                 sum.stored += 0.5 * weight * density;
                 continue;
               }
-            dealii::Point<3> x;
-            for (unsigned int i = 0; i < 4; ++i)
-              x += b[i] * dealii::Tensor<1, 3>(mesh.points[mesh.cells[cell][i]]);
-            sum.stored
-              += 0.5 * weight * law.energy_density(strain - materials.thermal_strain(region, x));
+            sum.stored += 0.5 * weight
+                          * law.energy_density(
+                            strain - materials.thermal_strain(region, position(mesh, cell, b)));
           }
       }
     sum.energy = dealii::Utilities::MPI::sum(sum.energy, communicator);

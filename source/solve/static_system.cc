@@ -4,6 +4,7 @@
 #include "tetradapt/mechanics/loads.h"
 #include "tetradapt/solve/energies.h"
 #include "tetradapt/solve/linear_solver.h"
+#include "tetradapt/solve/mixed_solver.h"
 #include "tetradapt/solve/static_solution.h"
 
 #include <deal.II/base/mpi.h>
@@ -43,14 +44,22 @@ namespace tetradapt::solve
       : materials(materials), mesh(std::move(mesh_pointer)), degree(degree), log(caller_log),
         edges(edges_for(*mesh, degree)),
         prescribed(mechanics::prescribe(scene.supports, *mesh, edges.get())),
-        partition(*mesh, communicator), tangents(materials, *mesh)
+        shear(materials.is_mixed()
+                ? std::make_unique<mechanics::MaterialMap>(shear_scene(scene), *mesh)
+                : nullptr),
+        partition(*mesh, communicator), tangents(shear ? *shear : materials, *mesh)
     {
       space = std::make_unique<DisplacementSpace>(partition, degree, edges.get());
       log.progress("assembling " + std::to_string(space->n_dofs()) + " unknowns");
-      forces = mechanics::nodal_forces(scene, materials, *space);
+      forces = mechanics::nodal_forces(scene, shear ? *shear : materials, *space);
       solver = std::make_unique<LinearSolver>(LinearModel{partition, *space, tangents, prescribed},
                                               scene.solver,
                                               log);
+      if (materials.is_mixed())
+        mixed_solver
+          = std::make_unique<MixedSolver>(MixedModel{*space, materials, prescribed, *solver},
+                                          scene.solver,
+                                          log);
     }
 
     /** The unknowns with a value of @p free where they are free, if it is not null,
@@ -77,11 +86,14 @@ namespace tetradapt::solve
     core::Log                              log;
     std::shared_ptr<const mesh::EdgeTable> edges;
     mechanics::PrescribedDisplacement      prescribed;
-    mechanics::MeshPartition               partition;
-    mechanics::TangentField                tangents;
-    std::unique_ptr<DisplacementSpace>     space;
-    NodalValues                            forces; ///< of the loads, on the nodes owned
-    std::unique_ptr<LinearSolver>          solver;
+    /** Mixed form only: its stiffness is that of the shear alone. */
+    std::unique_ptr<mechanics::MaterialMap> shear;
+    mechanics::MeshPartition                partition;
+    mechanics::TangentField                 tangents;
+    std::unique_ptr<DisplacementSpace>      space;
+    NodalValues                             forces; ///< of the loads, on the nodes owned
+    std::unique_ptr<LinearSolver>           solver;
+    std::unique_ptr<MixedSolver>            mixed_solver; ///< mixed form only
   };
 
   StaticSystem::StaticSystem(const scene::Scene                  &scene,
@@ -106,19 +118,30 @@ namespace tetradapt::solve
     solution.n_dofs = space.n_dofs();
     auto &values    = solution.displacement->values;
 
-    Vector     x = data->vector_of(start == nullptr ? nullptr : &start->values, 1.);
-    LinearStop linear_stop{stop.residual, stop.algebraic_error, stop.relative_error, {}};
-    if (!data->prescribed.is_homogeneous())
-      linear_stop.energy = [&](const Vector &iterate) {
-        space.gather(iterate, values);
-        return compute_energies(*solution.displacement, data->materials, space.communicator())
-          .energy;
-      };
-    const auto result   = data->solver->solve(data->solver->right_hand_side(data->forces),
-                                            linear_stop,
-                                            "The loads",
-                                            x);
-    solution.iterations = result.iterations;
+    Vector       x               = data->vector_of(start == nullptr ? nullptr : &start->values, 1.);
+    const Vector right_hand_side = data->solver->right_hand_side(data->forces);
+    LinearStop   linear_stop{stop.residual, stop.algebraic_error, stop.relative_error, {}};
+    LinearResult result;
+    if (data->mixed_solver)
+      {
+        const auto pressure = start != nullptr && start->pressure
+                                ? std::make_shared<mesh::PressureField>(*start->pressure)
+                                : std::make_shared<mesh::PressureField>(*data->mesh);
+        result              = data->mixed_solver->solve(right_hand_side, linear_stop, x, *pressure);
+        solution.displacement->pressure = pressure;
+        solution.n_dofs += data->mixed_solver->space().n_dofs();
+      }
+    else
+      {
+        if (!data->prescribed.is_homogeneous())
+          linear_stop.energy = [&](const Vector &iterate) {
+            space.gather(iterate, values);
+            return compute_energies(*solution.displacement, data->materials, space.communicator())
+              .energy;
+          };
+        result = data->solver->solve(right_hand_side, linear_stop, "The loads", x);
+      }
+    solution.iterations              = result.iterations;
     solution.iterations_to_tolerance = result.iterations_to_residual;
     solution.algebraic_error         = result.algebraic_error;
     solution.solver                  = result.description;

@@ -198,6 +198,27 @@ namespace
   }
 
   void
+  formulation()
+  {
+    const auto mixed = [](const unsigned int number, const std::string &text) {
+      auto lines        = good;
+      lines[0]          = "set Degree = 2\nset Formulation = mixed";
+      lines[number - 1] = number == 1 ? text : text + "\n";
+      return text_of(lines);
+    };
+    scene("mixed, degree 1", with_line(1, "set Formulation = mixed"));
+    scene("mixed, nu = 0", mixed(9, "set Poisson ratio = 0"));
+    scene("displacement, nu = 0.499999", with_line(9, "set Poisson ratio = 0.499999"));
+    scene("mixed, equilibrated",
+          mixed(22, "end\nsubsection Estimation\nset Estimators = equilibrated\nend"));
+    scene("mixed, hexahedra", mixed(22, "end\nsubsection Reference\nset Type = hexahedra\nend"));
+    scene("mixed, goal of stress",
+          mixed(22,
+                "end\nsubsection Goals\nsubsection s\nset Type = mean stress\nset Component = "
+                "xx\nend\nend"));
+  }
+
+  void
   nonsense_physics()
   {
     scene("nu = 0.5", with_line(9, "set Poisson ratio = 0.5"));
@@ -365,6 +386,7 @@ main()
   unknown_names();
   wrong_values();
   nonsense_physics();
+  formulation();
   bad_expressions();
   bad_meshes();
   bad_studies();

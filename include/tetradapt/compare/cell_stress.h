@@ -15,11 +15,18 @@ namespace tetradapt::compare
   constexpr std::array<std::array<unsigned int, 3>, 3> stress_index{
     {{{0, 3, 4}}, {{3, 1, 5}}, {{4, 5, 2}}}};
 
-  /** A law's tangent at rest and its inverse, as matrices between stresses and
-   * strains whose shears are the engineering ones (2 eps_xy). */
+  /**
+   * A law's tangent at rest and its inverse, as matrices between stresses and
+   * strains whose shears are the engineering ones (2 eps_xy).
+   *
+   * In mixed form the stiffness is that at a given pressure, 2 mu, and the compliance that of
+   * the law (zero for a pressure that changes no volume).
+   */
   struct ElasticMatrices
   {
     explicit ElasticMatrices(const mechanics::ConstitutiveLaw &law);
+    /** Of the mixed form. */
+    ElasticMatrices(const mechanics::ConstitutiveLaw &law, const mechanics::PressureForm &form);
 
     /** stress = C strain */
     void
@@ -49,6 +56,9 @@ namespace tetradapt::compare
     }
 
     double stiffness[6][6], compliance[6][6];
+    /** A positive metric of stresses and its inverse, for fits: compliance and stiffness, but
+     * in mixed form with a bulk modulus of at most 5 mu, so that pressures are fitted too. */
+    double metric[6][6], inverse_metric[6][6];
     double shear_modulus; ///< mean of the three on the diagonal
   };
 
@@ -84,6 +94,9 @@ namespace tetradapt::compare
    * The stress C : (eps(u_h) - eps_thermal) of a displacement, C the law's tangent at
    * rest. Without thermal strain it is constant in a cell for degree 1 and linear for
    * degree 2: it is computed once, at no or at four vertices of each cell.
+   *
+   * Of a solution in mixed form it is 2 mu (eps(u_h) - eps_thermal) - p_h I, and C below is
+   * 2 mu.
    */
   class CellStress
   {

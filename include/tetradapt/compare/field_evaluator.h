@@ -61,6 +61,13 @@ namespace tetradapt::compare
       return sum;
     }
 
+    /** The pressure of a solution in mixed form, else zero. */
+    double
+    pressure(const unsigned int cell, const mesh::Barycentric &b) const
+    {
+      return nodal_field.pressure ? nodal_field.pressure->value(cell, b) : 0.;
+    }
+
   private:
     const mesh::NodalField   &nodal_field;
     bool                      linear;

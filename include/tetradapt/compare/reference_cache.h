@@ -15,7 +15,8 @@ namespace tetradapt::compare
   {
     mesh::TetMesh                     mesh; ///< empty for a reference on hexahedra
     unsigned int                      degree = 1;
-    std::vector<dealii::Tensor<1, 3>> values; ///< one a node of a field of this degree
+    std::vector<dealii::Tensor<1, 3>> values;    ///< one a node of a field of this degree
+    std::vector<double>               pressures; ///< of a solution in mixed form, else empty
     /** Of a mesh::HexahedralField: planes and cells. */
     std::array<std::vector<double>, 3>       planes;
     std::vector<mesh::HexahedralField::Cell> hexahedra;

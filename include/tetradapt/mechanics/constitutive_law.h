@@ -7,6 +7,7 @@
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,23 @@ namespace tetradapt::mechanics
 {
   using dealii::SymmetricTensor;
   using dealii::Tensor;
+
+  /**
+   * An isotropic linear law written with the pressure p = -lambda tr(strain) as an unknown of
+   * its own: stress = 2 mu strain - p I, where p / lambda + tr(strain) = 0 holds weakly.
+   */
+  struct PressureForm
+  {
+    double shear_modulus;  ///< mu
+    double inverse_lambda; ///< 1 / lambda with lambda the first Lame parameter; 0: incompressible
+
+    /** Stress at displacement gradient @p G, or of a strain, and pressure @p p. */
+    SymmetricTensor<2, 3>
+    stress(const Tensor<2, 3> &G, double p) const
+    {
+      return 2. * shear_modulus * symmetrize(G) - p * dealii::unit_symmetric_tensor<3>();
+    }
+  };
 
   /**
    * A constitutive law: stress and tangent at one point, from the displacement
@@ -46,6 +64,13 @@ namespace tetradapt::mechanics
     /** stress : C^-1 : stress with C the tangent at rest. */
     virtual double
     complementary_density(const SymmetricTensor<2, 3> &stress) const = 0;
+
+    /** The law for the mixed form; empty if it has none. */
+    virtual std::optional<PressureForm>
+    pressure_form() const
+    {
+      return std::nullopt;
+    }
   };
 
   /**

@@ -9,11 +9,16 @@ namespace tetradapt::mechanics
   /**
    * Isotropic linear elasticity with small strains:
    * stress = lambda tr(strain) I + 2 mu strain, strain = (G + G^T)/2.
+   *
+   * With nu = 0.5 the strain determines the deviator of the stress only: stress(), tangent()
+   * and energy_density() give what belongs to that, and complementary_density() is that of the
+   * deviator, for a pressure does not strain the material. Such a material can be solved for in
+   * mixed form only.
    */
   class LinearElastic : public ConstitutiveLaw
   {
   public:
-    /** @param young_modulus E > 0. @param poisson_ratio nu in (-1, 0.5).
+    /** @param young_modulus E > 0. @param poisson_ratio nu in (-1, 0.5].
      *  @throws core::InputError outside these bounds. */
     LinearElastic(double young_modulus, double poisson_ratio);
 
@@ -27,10 +32,14 @@ namespace tetradapt::mechanics
     energy_density(const SymmetricTensor<2, 3> &strain) const override;
     double
     complementary_density(const SymmetricTensor<2, 3> &stress) const override;
+    /** Empty for nu <= 0, where lambda is not positive. */
+    std::optional<PressureForm>
+    pressure_form() const override;
 
   private:
-    double lambda; ///< first Lame parameter
-    double mu;     ///< shear modulus
+    double inverse_lambda; ///< 1 / lambda, infinite for nu = 0
+    double lambda;         ///< first Lame parameter; -2/3 mu for nu = 0.5
+    double mu;             ///< shear modulus
   };
 } // namespace tetradapt::mechanics
 

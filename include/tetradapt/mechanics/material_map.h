@@ -49,6 +49,17 @@ namespace tetradapt::mechanics
     const scene::MaterialParameters &
     parameters(int region) const;
 
+    /** Whether the scene is solved in mixed form. */
+    bool
+    is_mixed() const
+    {
+      return mixed;
+    }
+    /** The law of region @p region in the mixed form.
+     * @throws core::InputError if it has none. */
+    PressureForm
+    pressure_form(int region) const;
+
     bool
     has_thermal_strain() const;
 
@@ -69,6 +80,7 @@ namespace tetradapt::mechanics
     std::vector<scene::MaterialParameters> materials;
     std::map<int, Entry>                   entries;
     bool                                   thermal = false;
+    bool                                   mixed   = false;
   };
 } // namespace tetradapt::mechanics
 

@@ -3,6 +3,7 @@
 #define tetradapt_mesh_nodal_field_h
 
 #include "tetradapt/mesh/edges.h"
+#include "tetradapt/mesh/pressure_field.h"
 
 #include <memory>
 
@@ -84,6 +85,10 @@ namespace tetradapt::mesh
 
     /** One displacement a node. */
     std::vector<Tensor<1, 3>> values;
+
+    /** The pressure that belongs to a displacement solved for in mixed form; null for one in
+     * displacement form, whose strain says all. */
+    std::shared_ptr<const PressureField> pressure;
 
   private:
     std::shared_ptr<const TetMesh>   mesh_pointer;

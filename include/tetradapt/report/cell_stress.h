@@ -22,13 +22,16 @@ namespace tetradapt::report
     /** von Mises stress of the mean stress, one a cell:
      * sqrt(3/2 s:s) with s the deviator. */
     std::vector<double> von_mises;
+    /** Minus a third of the trace of the mean stress, one a cell. */
+    std::vector<double> pressure;
   };
 
   /**
    * The mean stress of every cell, thermal strain taken off:
    * sigma(G) - C(G):eps_th. The mean is exact for a linear law, where it is the
    * stress at the centroid, and otherwise taken with the four points of the rule
-   * of degree 2. The thermal strain is averaged with that rule.
+   * of degree 2. The thermal strain is averaged with that rule. Of a solution in mixed form it
+   * is the mean of 2 mu (eps - eps_th) - p I.
    */
   CellStress
   cell_stress(const mesh::NodalField &u, const mechanics::MaterialMap &materials);

@@ -39,6 +39,13 @@ namespace tetradapt::scene
     }
   };
 
+  /** The unknowns of a linear system. */
+  enum class Formulation
+  {
+    displacement, ///< the displacement alone
+    mixed         ///< the displacement and the pressure: no locking up to incompressibility
+  };
+
   /** A material and the regions that it fills. */
   struct MaterialParameters
   {

@@ -20,7 +20,8 @@ namespace tetradapt::scene
     std::string  name; ///< file name without folder and ending
     std::string  file; ///< as given on the command line
     std::string  title;
-    unsigned int degree = 1; ///< Lagrange degree of the displacement, 1 or 2
+    unsigned int degree      = 1; ///< Lagrange degree of the displacement, 1 or 2
+    Formulation  formulation = Formulation::displacement;
 
     MeshParameters                  mesh;
     TetgenParameters                tetgen;

@@ -19,6 +19,7 @@ namespace tetradapt::scene
   using Words = std::vector<std::pair<E, std::string>>;
 
   /** All words of the argument's type; its value does not matter. */
+  const Words<Formulation>                    &words(Formulation);
   const Words<MeshSource>                     &words(MeshSource);
   const Words<GoalType>                       &words(GoalType);
   const Words<ErrorEstimator>                 &words(ErrorEstimator);

@@ -83,6 +83,10 @@ namespace tetradapt::solve
     void
     precondition(Vector &destination, const Vector &source) const;
 
+    /** The matrix with the supports built in. */
+    const mechanics::LinearOperator<double> &
+    matrix() const;
+
   private:
     template <typename Number>
     std::unique_ptr<ApproximateInverse<Number>>
@@ -93,8 +97,6 @@ namespace tetradapt::solve
     precondition_in_double() const;
     double
     largest_diagonal() const;
-    const mechanics::LinearOperator<double> &
-    matrix() const;
     double
     load_norm(const Vector &right_hand_side, const std::string &load) const;
     LinearResult

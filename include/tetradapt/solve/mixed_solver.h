@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_solve_mixed_solver_h
+#define tetradapt_solve_mixed_solver_h
+
+#include "tetradapt/core/log.h"
+#include "tetradapt/mechanics/divergence.h"
+#include "tetradapt/mechanics/pressure_mass.h"
+#include "tetradapt/scene/scene.h"
+#include "tetradapt/solve/linear_solver.h"
+
+namespace tetradapt::solve
+{
+  /**
+   * @p scene with each material replaced by one of the same shear modulus and nu = 0, in
+   * displacement form: its stiffness int 2 mu eps : eps is what the mixed form has besides the
+   * pressure, so that assembly, thermal forces and multigrid serve both.
+   */
+  scene::Scene
+  shear_scene(const scene::Scene &scene);
+
+  /** What the mixed form is made of. */
+  struct MixedModel
+  {
+    const mechanics::DisplacementSpace      &space; ///< of degree 2
+    const mechanics::MaterialMap            &materials;
+    const mechanics::PrescribedDisplacement &prescribed;
+    const LinearSolver                      &shear; ///< of shear_scene()
+  };
+
+  /**
+   * Solves the equations of the mixed form with the elements of Taylor and Hood (see
+   * doc/mixed_form.md)
+   *
+   *   A u + B^T p = f,   A = int 2 mu eps : eps,      B = -int q div u,
+   *   B u - C p   = g,   C = int (1/lambda) p q,      g = -int q tr eps_thermal,
+   *
+   * by conjugate gradients in the inner product of Bramble and Pasciak (Math. Comp. 50, 1988):
+   * the block triangular preconditioner of A^ (multigrid for A, scaled to be less than A) and
+   * S^ (the mass matrix of the pressure weighted with 1/(2 mu) + 1/lambda, spectrally
+   * equivalent to the Schur complement C + B A^-1 B^T for every lambda) makes the matrix
+   * symmetric and positive in the inner product of diag(A - A^, S^). One product with A, B and
+   * B^T and one step of each preconditioner an iteration; their number is bounded for all
+   * meshes and all lambda.
+   */
+  class MixedSolver
+  {
+  public:
+    /** Collective. Keeps references to what @p model refers to, and to the other arguments.
+     * @throws core::InputError if supports hold all of the boundary of an incompressible part
+     *         and change its volume. */
+    MixedSolver(const MixedModel              &model,
+                const scene::SolverParameters &parameters,
+                const core::Log               &log);
+
+    const mechanics::PressureSpace &
+    space() const
+    {
+      return pressures;
+    }
+
+    /**
+     * Solves from @p u, which has the prescribed values, and from @p pressure on. Ends when the
+     * residual is below the tolerance times that of the load, or below @p stop.algebraic_error:
+     * both in the norm of the inverse of diag(A^, S^), which is equivalent to the energy norm of
+     * the error. A pressure that is determined up to a constant only gets the mean zero.
+     * Collective.
+     * @param forces the right-hand side of the displacements, see LinearSolver.
+     * @throws core::NumericalError if it does not converge.
+     */
+    LinearResult
+    solve(const Vector        &forces,
+          const LinearStop    &stop,
+          Vector              &u,
+          mesh::PressureField &pressure) const;
+
+  private:
+    struct Iterate;
+    /** Sets the residuals of an iterate. */
+    void
+    set_residuals(const Vector &forces, Iterate &iterate) const;
+    /** The norm of the residual where nothing moves but what is prescribed. */
+    double
+    load_norm(const Vector &forces) const;
+    /** Conjugate gradients from the iterate on. Ends early, with a smaller scale of A^, where
+     * that turns out not to be less than A. */
+    void
+    iterate(const Vector &forces, double target, Iterate &iterate) const;
+    /** Finds the pressures that move nothing, one for each incompressible part whose boundary
+     * is held, and makes the equations solvable. */
+    void
+    find_free_pressures();
+    /** Refuses supports that change the volume, and spreads what their interpolation does. */
+    void
+    check_volume(const Vector &free_pressure);
+
+    MixedModel                     model;
+    const scene::SolverParameters &parameters;
+    const core::Log               &log;
+    mechanics::PressureSpace       pressures;
+    mechanics::Divergence          divergence;
+    mechanics::PressureMass        mass;
+    Vector                         volume_load; ///< g
+    std::vector<Vector>            free_pressures;
+  };
+} // namespace tetradapt::solve
+
+#endif
