@@ -82,14 +82,16 @@ namespace tetradapt::adapt
         known.global = record.energy_error;
       if (sources.plan.needs(Plan::exact_comparison))
         {
-          known.cells  = &cycle.comparison.to_truth().cell_energy;
-          known.source = ErrorEstimator::exact;
+          known.cells        = &cycle.comparison.to_truth().cell_energy;
+          known.cells_source = ErrorEstimator::exact;
+          known.source       = ErrorEstimator::exact;
         }
       else if (sources.plan.needs(Plan::extrapolation)
                && reference_trust(record.reference_error, record.relative_estimate)
                     == ReferenceTrust::trusted)
         {
-          known.cells = &cycle.comparison.to_reference().cell_energy;
+          known.cells        = &cycle.comparison.to_reference().cell_energy;
+          known.cells_source = ErrorEstimator::energy;
           if (!measured.true_energy_error)
             {
               known.global = record.estimate;
@@ -176,6 +178,7 @@ namespace tetradapt::adapt
     if (sources.plan.needs(Plan::goal_values))
       evaluate_goals(sources.scene, cycle.comparison, record);
     set_main_estimate(record);
+    record.true_energy_error = measured.true_energy_error;
     if (measured.true_energy_error)
       record.effectivity = estimate::effectivity(record.estimate, record.energy_error);
     measured.wanted_indicator_norm = wanted_indicator_norm(sources.scene, record, measured);

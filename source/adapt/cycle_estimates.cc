@@ -140,7 +140,9 @@ namespace tetradapt::adapt
           indicators = estimate.indicators;
         if (estimate.missing)
           continue;
-        const KnownError comparable = known.source == which ? KnownError() : known;
+        KnownError comparable = known.source == which ? KnownError() : known;
+        if (known.cells_source == which)
+          comparable.cells = nullptr;
         record.estimates.push_back(to_record(estimator->traits(), estimate, norm, comparable));
         record.estimates.back().which   = which;
         record.estimates.back().seconds = seconds;

@@ -343,12 +343,15 @@ namespace tetradapt::adapt
     context.degree            = scene.degree;
     context.true_energy_error = cycle.true_energy_error;
     context.true_ren          = plan.needs(Plan::exact_comparison);
+    context.goal              = scene.estimation.goal;
     context.n_meshes          = scene.mesh.n_meshes();
     context.elapsed_seconds   = timer.total_wall();
     if (reference != nullptr)
       {
         context.reference_tets   = reference->displacement.n_tetrahedra();
         context.reference_degree = reference->displacement.degree();
+        context.reference_is_hexahedra
+          = scene.reference.type == scene::ReferenceParameters::Type::hexahedra;
       }
     // Clocks differ from rank to rank; the decision must not.
     core::broadcast_bytes(&context.elapsed_seconds, sizeof(double), communicator);

@@ -82,6 +82,34 @@ namespace tetradapt::adapt
 
 
 
+    /** The relative error of the goal that a tolerance is about, true if its value is known, else
+     * as the estimator 'goal' says. */
+    std::optional<double>
+    relative_goal_error(const StoppingContext &context, const CycleRecord &record)
+    {
+      for (const GoalRecord &goal : record.goals)
+        if (context.goal.empty() || goal.name == context.goal)
+          {
+            if (goal.error && *goal.exact != 0.)
+              return std::abs(*goal.error / *goal.exact);
+            if (goal.estimated_error && goal.value != 0.)
+              return std::abs(*goal.estimated_error / goal.value);
+            break;
+          }
+      return std::nullopt;
+    }
+
+
+
+    bool
+    any_tolerance(const AdaptivityParameters &parameters)
+    {
+      return parameters.tolerance > 0. || parameters.ren_tolerance > 0.
+             || parameters.goal_tolerance > 0.;
+    }
+
+
+
     /** Fills reason and text if every tolerance that is set is reached. */
     void
     check_tolerances(const AdaptivityParameters &parameters,
@@ -92,10 +120,13 @@ namespace tetradapt::adapt
     {
       const bool energy_wanted = parameters.tolerance > 0.;
       const bool ren_wanted    = parameters.ren_tolerance > 0.;
-      if (!energy_wanted && !ren_wanted)
+      if (!any_tolerance(parameters))
         return;
 
       std::string text;
+      const auto  add = [&text](const std::string &what) {
+        text += (text.empty() ? "Tolerance reached: " : "; ") + what;
+      };
       if (energy_wanted)
         {
           const MeasuredError error = measured_error(context, record);
@@ -105,8 +136,8 @@ namespace tetradapt::adapt
           // the reference's error says nothing about the mesh.
           if (!context.true_energy_error && trust == ReferenceTrust::saturated)
             return;
-          text = "Tolerance reached: the " + error.name + " is " + number(*error.value)
-                 + ", at most " + number(parameters.tolerance);
+          add("the " + error.name + " is " + number(*error.value) + ", at most "
+              + number(parameters.tolerance));
         }
       if (ren_wanted)
         {
@@ -114,8 +145,16 @@ namespace tetradapt::adapt
             return;
           if (!context.true_ren && trust == ReferenceTrust::saturated)
             return;
-          text += (text.empty() ? "Tolerance reached: the mean REN is " : "; the mean REN is ")
-                  + number(*record.mean_ren) + ", at most " + number(parameters.ren_tolerance);
+          add("the mean REN is " + number(*record.mean_ren) + ", at most "
+              + number(parameters.ren_tolerance));
+        }
+      if (parameters.goal_tolerance > 0.)
+        {
+          const auto error = relative_goal_error(context, record);
+          if (!error || !(*error <= parameters.goal_tolerance))
+            return;
+          add("the relative error of the goal is " + number(*error) + ", at most "
+              + number(parameters.goal_tolerance));
         }
       const bool by_reference
         = context.reference_tets > 0
@@ -171,7 +210,11 @@ namespace tetradapt::adapt
           return;
         }
       text
-        += "; ask for a finer reference (Reference section: a smaller volume bound or degree 2).";
+        += context.reference_is_hexahedra
+             ? "; ask for a finer reference (Reference section: a smaller Tolerance, more Maximum "
+               "unknowns or degree 3)."
+             : "; ask for a finer reference (Reference section: a smaller volume bound or degree "
+               "2).";
       if (ends)
         decision.text = "Stopped without convergence: " + text;
       else
@@ -193,7 +236,9 @@ namespace tetradapt::adapt
     {
       // A next mesh that would exceed the limit is not made: uniform refinement
       // multiplies by 8; an adaptive step of less than a fifth is not worth a solve.
-      const double growth = parameters.strategy == Strategy::uniform ? 8. : 1.2;
+      const double growth = parameters.strategy == Strategy::uniform     ? 8.
+                            : parameters.strategy == Strategy::mesh_list ? 1.
+                                                                         : 1.2;
       const auto   limit  = [&](const StopReason    reason,
                              const unsigned long value,
                              const unsigned long bound,
@@ -263,10 +308,12 @@ namespace tetradapt::adapt
         if (history.size() >= context.n_meshes)
           finish(StopReason::end_of_list,
                  "Done: all " + std::to_string(context.n_meshes) + " meshes of the list.");
+        else
+          check_limits(parameters, context, record, decision);
       }
     else if (history.size() >= parameters.max_cycles)
       {
-        const bool tolerance_missed = parameters.tolerance > 0. || parameters.ren_tolerance > 0.;
+        const bool tolerance_missed = any_tolerance(parameters);
         decision.reason             = StopReason::max_cycles;
         decision.success            = !tolerance_missed;
         decision.text               = (tolerance_missed ? "Stopped at a limit: " : "Done: ")
@@ -277,7 +324,9 @@ namespace tetradapt::adapt
     else
       check_limits(parameters, context, record, decision);
 
-    if (!decision.stop() && history.size() > 1 && parameters.strategy == Strategy::adaptive)
+    // A body meshed anew has as many cells by chance.
+    if (!decision.stop() && history.size() > 1 && parameters.strategy == Strategy::adaptive
+        && !parameters.coarsening)
       {
         const StopDecision no_new = decide_new_mesh(history[history.size() - 2].tets, record.tets);
         decision.reason           = no_new.reason;

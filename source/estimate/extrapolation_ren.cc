@@ -20,7 +20,10 @@ namespace tetradapt::estimate
   Estimate
   ExtrapolationRen::estimate(const EstimateInput &input) const
   {
-    const compare::NodalRen &ren = input.comparison.ren_to_reference();
+    // Where there is no reference the exact displacement takes its place.
+    const compare::NodalRen &ren = input.comparison.has_reference()
+                                     ? input.comparison.ren_to_reference()
+                                     : input.comparison.ren();
     return {ren.cell_sums, ren.mean};
   }
 } // namespace tetradapt::estimate

@@ -36,7 +36,10 @@ namespace tetradapt::estimate
               recovered.highest_derivatives(recovered.patches_of_cell(cell)[i], patch);
               for (unsigned int k = 0; k < n; ++k)
                 for (unsigned int c = 0; c < 6; ++c)
-                  stress[k][c] += weight * patch[k][c];
+                  {
+                    stress[k][c] += weight * patch[k][c];
+                    found = found || patch[k][c] != 0.;
+                  }
             }
         for (unsigned int k = 0; k < n; ++k)
           for (unsigned int a = 0; a < 6; ++a)
@@ -45,6 +48,13 @@ namespace tetradapt::estimate
               for (unsigned int b = 0; b < 6; ++b)
                 strain[k][a] += (a < 3 ? 1. : 0.5) * matrices.compliance[a][b] * stress[k][b];
             }
+      }
+
+      /** Whether any patch had points enough for its highest degree. */
+      bool
+      are_known() const
+      {
+        return found;
       }
 
       /**
@@ -87,6 +97,7 @@ namespace tetradapt::estimate
     private:
       unsigned int degree;
       double       strain[6][6]; ///< tensor components
+      bool         found = false;
     };
 
     /**
@@ -167,6 +178,29 @@ namespace tetradapt::estimate
         }
       return sum * volume;
     }
+
+    /** Energy norm of what a cell's stress lacks of the recovered one: all there is to know on
+     * meshes of a few cells. */
+    double
+    recovered_difference(const compare::RecoveredStress &recovered,
+                         const compare::CellStress      &stress,
+                         const mesh::TetMesh            &mesh,
+                         const unsigned int              cell)
+    {
+      const compare::TetQuadrature &rule = compare::tet_quadrature(2);
+      double                        sum  = 0.;
+      for (unsigned int q = 0; q < rule.points.size(); ++q)
+        {
+          const Point<3> point = compare::position(mesh, cell, rule.points[q]);
+          double         own[6], better[6];
+          stress.at(cell, rule.points[q], point, own);
+          recovered.at(cell, rule.points[q], point, better);
+          for (unsigned int c = 0; c < 6; ++c)
+            better[c] -= own[c];
+          sum += rule.weights[q] * stress.materials()[cell].complementary_density(better);
+        }
+      return std::sqrt(std::max(0., sum) * mesh::cell_volume(mesh, cell));
+    }
   } // namespace
 
   EstimatorTraits
@@ -205,6 +239,11 @@ namespace tetradapt::estimate
         const compare::ElasticMatrices &matrices = stress.materials()[cell];
         const HighestDerivatives        derivatives(
           recovered, matrices, cell, inner_vertices(mesh.cells[cell], on_boundary), degree);
+        if (!derivatives.are_known())
+          {
+            result.indicators[cell] = recovered_difference(recovered, stress, mesh, cell);
+            continue;
+          }
         Tensor<1, 3> coefficients[HierarchicalSurplus::max_per_cell];
         interpolation_surplus(derivatives, degree, x, coefficients);
         result.indicators[cell]

@@ -243,7 +243,8 @@ namespace tetradapt::report
                        {"mesh.csv", "the meshes: what was asked for, shapes, ids"},
                        {"plots", "errors, effectivity, shapes as .svg"},
                        {scene_name + ".pvd", "all cycles, for ParaView"},
-                       {"size_field.vtu", "wanted sizes, for Mesh/Size field of another scene"},
+                       {"size_field.vtu",
+                        "sizes of the last mesh, for Mesh/Size field of another scene"},
                        {"parameters.prm", "the complete input"},
                        {"log.txt", "what happened when"}});
   }

@@ -124,10 +124,10 @@ namespace tetradapt::report
     }
 
     std::string
-    error_label(const scene::Scene &scene)
+    error_label(const scene::Scene &scene, const Records &records)
     {
       using Reference = scene::ReferenceParameters::Type;
-      if (scene.truth.has_displacement() || scene.truth.has_energy())
+      if (records.back().true_energy_error)
         return "true energy error";
       if (scene.reference.type != Reference::none)
         return "error to the reference";
@@ -156,7 +156,7 @@ namespace tetradapt::report
       const auto add = [&](const std::string &label, unsigned int pattern, const Figure &figure) {
         add_curve(plot, label, points_of(records, abscissa, figure), pattern);
       };
-      add(error_label(scene), 0, [](const Record &r) { return r.relative_energy_error; });
+      add(error_label(scene, records), 0, [](const Record &r) { return r.relative_energy_error; });
       for (const std::string &name : estimator_names(records))
         add(name, 1, [&](const Record &r) -> std::optional<double> {
           const auto *entry = find_estimate(r, name);

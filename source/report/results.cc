@@ -47,7 +47,7 @@ namespace tetradapt::report
       if (error)
         results.push_back({name, 0., *error, -*error, {}});
     };
-    if (scene.truth.has_energy() || scene.truth.has_displacement())
+    if (record.true_energy_error)
       add_norm("relative energy error", record.relative_energy_error);
     if (scene.truth.has_displacement())
       {

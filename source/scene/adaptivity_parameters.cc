@@ -108,11 +108,12 @@ namespace tetradapt::scene
       binder("Maximum tetrahedra",
              p.max_tets,
              long_count_codec(),
-             "No mesh larger than that; 0: no limit.");
+             "No further cycle with a mesh larger than that; optimal sizes aim at no more. 0: no "
+             "limit.");
       binder("Maximum unknowns",
              p.max_dofs,
              long_count_codec(),
-             "No system larger than that; 0: no limit.");
+             "No further cycle with a larger system; 0: no limit.");
       binder("Maximum seconds",
              p.max_seconds,
              number_codec(),

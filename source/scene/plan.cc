@@ -31,6 +31,22 @@ namespace tetradapt::scene
       return is_adaptive(scene) && scene.adaptivity.driver == driver;
     }
 
+    bool
+    is_listed(const Scene &scene, const Driver which)
+    {
+      const auto &listed = scene.estimation.estimators;
+      return std::find(listed.begin(), listed.end(), which) != listed.end();
+    }
+
+    /** What of the output shows errors; empty: nothing. */
+    std::string
+    output_of_errors(const Scene &scene)
+    {
+      if (scene.output.tables)
+        return "columns of the tables";
+      return scene.output.plots ? "curves of the plots" : "";
+    }
+
     /** Who uses the difference to the reference in the energy norm; empty: nobody. */
     std::string
     user_of_extrapolation(const Scene &scene)
@@ -40,9 +56,9 @@ namespace tetradapt::scene
       if (scene.adaptivity.tolerance > 0. && !scene.truth.has_displacement()
           && !scene.truth.has_energy())
         return "Adaptivity/Tolerance is measured with it";
-      if (scene.output.tables)
-        return "columns of the tables";
-      return "";
+      if (is_listed(scene, Driver::energy))
+        return "listed in Estimation/Estimators";
+      return output_of_errors(scene);
     }
 
     std::string
@@ -52,11 +68,11 @@ namespace tetradapt::scene
         return "drives the refinement";
       if (scene.adaptivity.ren_tolerance > 0.)
         return "Adaptivity/REN tolerance is measured with it";
-      if (scene.output.tables)
-        return "columns of the tables";
-      if (scene.output.vtu)
-        return "a field of the .vtu files";
-      return "";
+      if (is_listed(scene, Driver::ren))
+        return "listed in Estimation/Estimators";
+      if (!output_of_errors(scene).empty())
+        return output_of_errors(scene);
+      return scene.output.vtu ? "a field of the .vtu files" : "";
     }
 
     std::string
@@ -74,7 +90,9 @@ namespace tetradapt::scene
         return "drives the refinement";
       if (scene.adaptivity.tolerance > 0.)
         return "Adaptivity/Tolerance is measured with it";
-      return scene.output.tables ? "columns of the tables" : "";
+      if (drives && is_listed(scene, Driver::exact))
+        return "listed in Estimation/Estimators";
+      return output_of_errors(scene);
     }
 
     bool
@@ -204,7 +222,7 @@ namespace tetradapt::scene
         "reference cache",
         (solved || hexahedra) && reference.cache,
         "Reference/Cache = yes",
-        solved ? "Reference/Cache = no" : absent);
+        solved || hexahedra ? "Reference/Cache = no" : absent);
     add(reference_error,
         "reference's own error",
         used,
@@ -254,10 +272,11 @@ namespace tetradapt::scene
           && which != ErrorEstimator::exact)
         names += (names.empty() ? "" : ", ") + word(which);
     };
-    if (is_adaptive(scene) && scene.adaptivity.max_cycles > 1)
+    const bool drives = is_adaptive(scene) && scene.adaptivity.max_cycles > 1;
+    if (drives)
       include(scene.adaptivity.driver);
     for (const ErrorEstimator which : scene.estimation.estimators)
-      if (!is_driven_by(scene, which))
+      if (!drives || which != scene.adaptivity.driver)
         include(which);
     add(estimation,
         "error estimators",

@@ -159,6 +159,21 @@ namespace tetradapt::scene
               "the estimator 'goal' needs a goal. Add a subsection to Goals.");
     }
 
+    /** Whether the error of Estimation/Goal is known or estimated. */
+    bool
+    main_goal_has_error(const Scene &scene)
+    {
+      const auto &listed = scene.estimation.estimators;
+      if (std::find(listed.begin(), listed.end(), ErrorEstimator::goal) != listed.end()
+          || (scene.adaptivity.strategy == AdaptivityParameters::Strategy::adaptive
+              && scene.adaptivity.driver == ErrorEstimator::goal))
+        return true;
+      for (const auto &goal : scene.goals)
+        if (scene.estimation.goal.empty() || goal.name == scene.estimation.goal)
+          return goal.exact && *goal.exact != 0.;
+      return false;
+    }
+
     void
     check_estimation(const Scene &scene)
     {
@@ -229,6 +244,10 @@ namespace tetradapt::scene
       require(adapt.goal_tolerance == 0. || !scene.goals.empty(),
               "Adaptivity/Goal tolerance",
               "the scene has no goal. Add a subsection to Goals, or remove this.");
+      require(adapt.goal_tolerance == 0. || main_goal_has_error(scene),
+              "Adaptivity/Goal tolerance",
+              "the goal's error cannot be measured. Give its Exact value, or let the estimator "
+              "'goal' run: in Estimation/Estimators or as Adaptivity/Driver.");
       require(adapt.ren_tolerance == 0. || has_ref || has_u,
               "Adaptivity/REN tolerance",
               "REN cannot be measured: there is no reference and no exact displacement. Set "

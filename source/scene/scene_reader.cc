@@ -131,6 +131,11 @@ namespace tetradapt::scene
                        + "' is no full name of a parameter, "
                          "such as Adaptivity/Driver.");
             check_name(path, names);
+            if (lines.count("command line\n" + full_name(path)) > 0)
+              refuse(names,
+                     start + "Parameters: " + full_name(path)
+                       + " is varied by the study and set on the command line, too. Set Study/"
+                       + variation.name + "/Values there, or run the one scene.");
             const Place place = places_of_values.at(start + "Values");
             lines.erase(place.file + "\n" + full_name(path)); // setting it again is meant
             set_existing(path, variation.cases[number][i], place);

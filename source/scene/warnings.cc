@@ -39,10 +39,14 @@ namespace tetradapt::scene
       when(mesh.source != MeshSource::surface,
            {"Mesh/Feature angle"},
            "Mesh/Type = " + word(mesh.source));
-      when(reference.type == Reference::none,
+      const bool        fine = reference.type == Reference::fine_mesh;
+      const std::string type = "Reference/Type = " + word(reference.type);
+      when(!fine,
            {"Reference/Mesh", "Reference/Cells", "Reference/Volume bound", "Reference/Size"},
-           "Reference/Type = none");
-      const bool fine = reference.type == Reference::fine_mesh;
+           type);
+      when(reference.type != Reference::hexahedra,
+           {"Reference/Tolerance", "Reference/Maximum unknowns"},
+           type);
       when(fine && reference.route != Route::bricks,
            {"Reference/Cells"},
            "Reference/Mesh = " + word(reference.route));
@@ -66,10 +70,19 @@ namespace tetradapt::scene
            marking);
       when(adaptive && adapt.marking != Marking::fixed_fraction, {"Adaptivity/Fraction"}, marking);
       when(adaptive && adapt.marking != Marking::doerfler, {"Adaptivity/Theta"}, marking);
-      when(adaptive && adapt.marking != Marking::optimal_size, {"Adaptivity/Growth"}, marking);
+      when(adaptive && adapt.marking != Marking::optimal_size,
+           {"Adaptivity/Growth",
+            "Adaptivity/Minimum ratio",
+            "Adaptivity/Maximum ratio",
+            "Adaptivity/Maximum size",
+            "Adaptivity/Gradation"},
+           marking);
       when(adaptive && adapt.marking == Marking::optimal_size, {"Adaptivity/Reduction"}, marking);
       when(adapt.strategy == Strategy::none || adapt.strategy == Strategy::mesh_list,
-           {"Adaptivity/Maximum cycles"},
+           {"Adaptivity/Maximum cycles",
+            "Adaptivity/Tolerance",
+            "Adaptivity/REN tolerance",
+            "Adaptivity/Goal tolerance"},
            "Adaptivity/Strategy = " + word(adapt.strategy));
       return unused;
     }

@@ -91,9 +91,10 @@ namespace tetradapt::solve
 
     EnergyErrorEstimate estimate;
     IterationResult     result;
-    result.residual  = residual.l2_norm();
-    result.converged = result.residual <= limits.residual;
-    double energy    = 0.; // (r, z)
+    result.residual             = residual.l2_norm();
+    const double first_residual = result.residual;
+    result.converged            = result.residual <= limits.residual;
+    double energy               = 0.; // (r, z)
     while (!result.converged && result.iterations < limits.max_iterations
            && std::isfinite(result.residual))
       {
@@ -129,8 +130,11 @@ namespace tetradapt::solve
         preconditioner.vmult(preconditioned, residual);
         result.preconditioned_residual = std::sqrt(std::max(0., residual * preconditioned));
       }
-    result.gained                 = estimate.gained();
-    result.error                  = std::sqrt(estimate.squared_error().value_or(0.));
+    result.gained = estimate.gained();
+    // Too few steps for an estimate: the error falls like the residual.
+    const double like_residual = first_residual > 0. ? result.residual / first_residual : 0.;
+    result.error               = std::sqrt(
+      estimate.squared_error().value_or(estimate.gained() * like_residual * like_residual));
     result.iterations_to_residual = foretell(result, limits, estimate);
     return result;
   }

@@ -23,12 +23,14 @@ namespace tetradapt::solve
                    const mechanics::MaterialMap &materials,
                    MPI_Comm                      communicator)
   {
-    const auto                    &mesh    = displacement.mesh();
-    const unsigned long            n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
-    const unsigned long            rank    = dealii::Utilities::MPI::this_mpi_process(communicator);
-    const dealii::QGaussSimplex<3> quadrature(displacement.degree());
-    const unsigned int             begin = mesh.n_cells() * rank / n_ranks;
-    const unsigned int             end   = mesh.n_cells() * (rank + 1) / n_ranks;
+    const auto         &mesh    = displacement.mesh();
+    const unsigned long n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
+    const unsigned long rank    = dealii::Utilities::MPI::this_mpi_process(communicator);
+    // Temperatures are expressions: their strain varies in a cell whatever the degree.
+    const dealii::QGaussSimplex<3> quadrature(
+      materials.has_thermal_strain() ? 3 : displacement.degree());
+    const unsigned int begin = mesh.n_cells() * rank / n_ranks;
+    const unsigned int end   = mesh.n_cells() * (rank + 1) / n_ranks;
 
     Energies sum;
     for (unsigned int cell = begin; cell < end; ++cell)

@@ -302,9 +302,11 @@ namespace tetradapt::solve
         else if (solution.levels.back().indicator < .01 * target)
           error = solution.levels.back().indicator;
         report(solution, forest.n_cells(), iterations, error, log);
-        solution.estimated_error = error.value_or(norm);
-        solution.reached         = solution.estimated_error <= target;
-        const double next        = wanted_growth(error, target);
+        // Too few levels to calibrate by: the indicator, with room.
+        solution.estimated_error
+          = error.value_or(std::min(norm, 3. * solution.levels.back().indicator));
+        solution.reached  = solution.estimated_error <= target;
+        const double next = wanted_growth(error, target);
         if (solution.reached || next * solution.n_dofs > scene.reference.max_dofs)
           return solution;
         foretold = error.value_or(0.) * std::pow(next, -usual_rate);

@@ -13,8 +13,8 @@ namespace tetradapt::adapt
   {
     std::optional<double>      global;          ///< energy norm
     const std::vector<double> *cells = nullptr; ///< energy norm, one a cell, or null
-    /** The estimator that made it, for which an effectivity would say nothing. */
-    std::optional<scene::ErrorEstimator> source;
+    /** The estimators that made them, for which an effectivity would say nothing. */
+    std::optional<scene::ErrorEstimator> source, cells_source;
   };
 
   /**

@@ -79,6 +79,9 @@ namespace tetradapt::adapt
     /** The difference to the reference, or without one the first estimator of the energy
      * norm: absolute and relative. */
     std::optional<double> estimate, relative_estimate;
+    /** Whether energy_error is the true one, by an exact displacement or a known energy; else
+     * it is an estimate or the difference to a reference. */
+    bool true_energy_error = false;
     /** The reference's own estimated relative energy error. */
     std::optional<double> reference_error;
     /** estimate / energy_error, where a truth is known. */

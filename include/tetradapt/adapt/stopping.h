@@ -48,8 +48,11 @@ namespace tetradapt::adapt
     /** Whether mean_ren is measured with an exact displacement. */
     bool true_ren = false;
     /** The reference's tetrahedra and degree; zero tetrahedra: no reference. */
-    unsigned long reference_tets   = 0;
-    unsigned int  reference_degree = 0;
+    unsigned long reference_tets         = 0;
+    unsigned int  reference_degree       = 0;
+    bool          reference_is_hexahedra = false;
+    /** The goal that Goal tolerance is about: Estimation/Goal; empty: the first. */
+    std::string goal;
     /** Strategy::mesh_list: the number of meshes. */
     unsigned int n_meshes = 0;
     /** Wall time since the run began, seconds. */
