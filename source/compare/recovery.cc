@@ -3,6 +3,7 @@
 
 #include "tetradapt/compare/patch_solver.h"
 #include "tetradapt/compare/stress_difference.h"
+#include "tetradapt/mesh/space_curve.h"
 
 #include <memory>
 
@@ -88,6 +89,21 @@ namespace tetradapt::compare
       PatchSolver<0>         solver;
     };
 
+    /** The patches of a slice in an order in which neighbours come soon after each other, so
+     * that the samples that they share are still in the cache. */
+    std::vector<unsigned int>
+    along_curve(const mesh::TetMesh &mesh, const RecoveryPatches &patches, const Slice &slice)
+    {
+      std::vector<Point<3>> centers;
+      for (unsigned int patch = slice.begin; patch < slice.end; ++patch)
+        centers.push_back(mesh.points[patches.vertex[patch]]);
+      const auto box   = mesh::bounding_box(mesh);
+      auto       order = mesh::SpaceCurve(box.first, box.second).order(centers);
+      for (unsigned int &patch : order)
+        patch += slice.begin;
+      return order;
+    }
+
     template <unsigned int degree>
     std::vector<double>
     fit_patches(const mesh::TetMesh    &mesh,
@@ -104,7 +120,7 @@ namespace tetradapt::compare
       const Slice               slice = own_slice(patches.size(), communicator);
       std::vector<double>       result(std::size_t(patches.size()) * n_numbers, 0.);
       std::vector<unsigned int> cells;
-      for (unsigned int patch = slice.begin; patch < slice.end; ++patch)
+      for (const unsigned int patch : along_curve(mesh, patches, slice))
         fits->fit(patch, cells, &result[std::size_t(patch) * n_numbers]);
       return result;
     }

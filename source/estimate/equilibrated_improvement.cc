@@ -2,13 +2,11 @@
 #include "tetradapt/estimate/equilibrated_improvement.h"
 
 #include "tetradapt/compare/parallel.h"
+#include "tetradapt/mesh/space_curve.h"
 
 #include <deal.II/base/numbers.h>
 
-#include <deal.II/base/utilities.h>
-
 #include <algorithm>
-#include <numeric>
 
 namespace tetradapt::estimate
 {
@@ -27,7 +25,7 @@ namespace tetradapt::estimate
       return {begins.begin(), begins.end()};
     }
 
-    /** Numbers the cells along Hilbert's curve through their centers. */
+    /** The place of every cell along a curve through space. */
     std::vector<unsigned int>
     places_along_curve(const mesh::TetMesh &mesh)
     {
@@ -35,13 +33,9 @@ namespace tetradapt::estimate
       for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
         for (const unsigned int point : mesh.cells[cell])
           centers[cell] += 0.25 * Tensor<1, 3>(mesh.points[point]);
-      constexpr int bits = 16; // a direction
-      const auto    keys = dealii::Utilities::inverse_Hilbert_space_filling_curve(centers, bits);
-      std::vector<unsigned int> order(mesh.n_cells()), places(mesh.n_cells());
-      std::iota(order.begin(), order.end(), 0);
-      std::sort(order.begin(), order.end(), [&](unsigned int a, unsigned int b) {
-        return keys[a] < keys[b] || (keys[a] == keys[b] && a < b);
-      });
+      const auto                box   = mesh::bounding_box(mesh);
+      const auto                order = mesh::SpaceCurve(box.first, box.second).order(centers);
+      std::vector<unsigned int> places(mesh.n_cells());
       for (unsigned int i = 0; i < order.size(); ++i)
         places[order[i]] = i;
       return places;
