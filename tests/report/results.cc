@@ -33,6 +33,7 @@ namespace
     r.tets                  = 100;
     r.energy                = 3.96;
     r.relative_energy_error = 0.1;
+    r.true_energy_error     = true;
     adapt::GoalRecord tip;
     tip.name            = "tip";
     tip.value           = -1.5;
