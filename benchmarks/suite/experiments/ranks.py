@@ -12,7 +12,7 @@ def run(session):
         return
     n = 9 if session.quick else 16
     jobs = [session.tetradapt.uniform(session.output, body, n, 2, ranks) for ranks in (1, 2)]
-    cases = session.measure(jobs, repeats=3, spend=200)
+    cases = session.measure(jobs, repeats=5, spend=200)
     rows = []
     # The least of the runs: with both processors busy, any other process on the machine shows.
     for case in cases:
