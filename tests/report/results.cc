@@ -100,7 +100,8 @@ main()
   fs::remove("results_scratch/results.txt");
   scene.truth.energy = 0.;
   worse.goals.clear();
-  worse.acceptance = adapt::Acceptance::accepted;
+  worse.acceptance        = adapt::Acceptance::accepted;
+  worse.true_energy_error = false;
   summary.run_started(scene);
   summary.cycle_done({worse, field, materials, nullptr, nullptr});
   summary.run_done("because");
