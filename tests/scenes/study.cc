@@ -112,7 +112,7 @@ main()
   check("P2 is softer than P1", three.value("energy", 0) > 1.5 * one.value("energy", 0));
   const std::string parameters = read("s/03-P2-quadratic-time-600-direct/parameters.prm");
   check("a run's parameters are those of a scene of its own",
-        contains(parameters, "Degree = 2") && !contains(parameters, "P2, quadratic |"));
+        contains(parameters, "Degree      = 2") && !contains(parameters, "P2, quadratic |"));
   result = run("--quiet --output-directory again s/03-P2-quadratic-time-600-direct/parameters.prm");
   check("which gives the same", result.code == 0 && Table("again").distance(three) < 1e-12);
 
