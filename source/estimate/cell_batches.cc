@@ -49,7 +49,7 @@ namespace tetradapt::estimate
     add_to_batch(const HierarchicalSurplus &surplus,
                  unsigned int               n_nodes,
                  unsigned int               cell,
-                 CellBatch<q>              &batch)
+                 SurplusBatch<q>           &batch)
     {
       const mesh::TetMesh &mesh     = surplus.mesh();
       const auto          &points   = mesh.cells[cell];
@@ -87,7 +87,7 @@ namespace tetradapt::estimate
                  unsigned int                      n_nodes,
                  const compare::Slice             &slice,
                  const std::map<int, VoigtMatrix> &tangents,
-                 std::vector<CellBatch<q>>        &batches)
+                 std::vector<SurplusBatch<q>>     &batches)
     {
       batches.reserve((slice.end - slice.begin) / n_lanes + tangents.size());
       std::map<int, std::size_t> open;
@@ -154,7 +154,9 @@ namespace tetradapt::estimate
 
     template <unsigned int q>
     void
-    add_diagonal(const std::vector<CellBatch<q>> &batches, unsigned int n_nodes, double *diagonal)
+    add_diagonal(const std::vector<SurplusBatch<q>> &batches,
+                 unsigned int                        n_nodes,
+                 double                             *diagonal)
     {
       using Coefficients = std::array<double, Bernstein<q>::n>;
       std::vector<std::array<std::array<double, 4>, 4>> products;

@@ -16,7 +16,7 @@ namespace tetradapt::estimate
   /** Eight cells of one region, with their vertices sorted by point number, so that the
    * functions of edges point the same way in all cells. Missing cells have no volume. */
   template <unsigned int q>
-  struct CellBatch
+  struct SurplusBatch
   {
     static constexpr unsigned int n = Bernstein<q>::n;
 
@@ -42,9 +42,9 @@ namespace tetradapt::estimate
     operator=(const CellBatches &)
       = delete;
 
-    std::map<int, VoigtMatrix> tangents; ///< per region; batches point to them
-    std::vector<CellBatch<2>>  quadratic;
-    std::vector<CellBatch<3>>  cubic;
+    std::map<int, VoigtMatrix>   tangents; ///< per region; batches point to them
+    std::vector<SurplusBatch<2>> quadratic;
+    std::vector<SurplusBatch<3>> cubic;
   };
 
   /** Adds stiffness times @p x to @p forces. */

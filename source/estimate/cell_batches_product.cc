@@ -100,7 +100,7 @@ namespace tetradapt::estimate
 
     template <unsigned int q>
     TETRADAPT_INLINE void
-    gather(const CellBatch<q> &batch, const double *x, Lanes (&h)[Bernstein<q>::n][3])
+    gather(const SurplusBatch<q> &batch, const double *x, Lanes (&h)[Bernstein<q>::n][3])
     {
       for (unsigned int a = 0; a < Bernstein<q>::n; ++a)
         for (unsigned int l = 0; l < n_lanes; ++l)
@@ -115,7 +115,7 @@ namespace tetradapt::estimate
     /** Forces of one batch, in hierarchical functions, of the values gathered in @p h. */
     template <unsigned int q>
     TETRADAPT_INLINE void
-    batch_forces(const CellBatch<q> &batch,
+    batch_forces(const SurplusBatch<q> &batch,
                  const Lanes (&h)[Bernstein<q>::n][3],
                  Lanes (&forces)[Bernstein<q>::n][3])
     {
@@ -127,7 +127,7 @@ namespace tetradapt::estimate
 
     template <unsigned int q>
     TETRADAPT_INLINE void
-    multiply_all(const std::vector<CellBatch<q>> &batches, const double *x, double *forces)
+    multiply_all(const std::vector<SurplusBatch<q>> &batches, const double *x, double *forces)
     {
       Lanes h[Bernstein<q>::n][3], f[Bernstein<q>::n][3];
       for (const auto &batch : batches)
@@ -148,10 +148,10 @@ namespace tetradapt::estimate
 
     template <unsigned int q>
     TETRADAPT_INLINE void
-    products_of_all(const std::vector<CellBatch<q>> &batches,
-                    const double                    *x,
-                    const double                    *y,
-                    double                          *products)
+    products_of_all(const std::vector<SurplusBatch<q>> &batches,
+                    const double                       *x,
+                    const double                       *y,
+                    double                             *products)
     {
       Lanes h[Bernstein<q>::n][3], f[Bernstein<q>::n][3];
       for (const auto &batch : batches)

@@ -187,19 +187,11 @@ namespace tetradapt::estimate
                          const mesh::TetMesh            &mesh,
                          const unsigned int              cell)
     {
-      const compare::TetQuadrature &rule = compare::tet_quadrature(2);
-      double                        sum  = 0.;
-      for (unsigned int q = 0; q < rule.points.size(); ++q)
-        {
-          const Point<3> point = compare::position(mesh, cell, rule.points[q]);
-          double         own[6], better[6];
-          stress.at(cell, rule.points[q], point, own);
-          recovered.at(cell, rule.points[q], point, better);
-          for (unsigned int c = 0; c < 6; ++c)
-            better[c] -= own[c];
-          sum += rule.weights[q] * stress.materials()[cell].complementary_density(better);
-        }
-      return std::sqrt(std::max(0., sum) * mesh::cell_volume(mesh, cell));
+      const auto better
+        = [&](unsigned int of, const mesh::Barycentric &b, const Point<3> &point, double *s) {
+            recovered.at(of, b, point, s);
+          };
+      return compare::stress_difference_in(mesh, stress, better, compare::tet_quadrature(2), cell);
     }
   } // namespace
 

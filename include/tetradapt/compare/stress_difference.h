@@ -12,6 +12,30 @@
 
 namespace tetradapt::compare
 {
+  /** stress_difference() in one cell. */
+  template <typename Stress>
+  double
+  stress_difference_in(const mesh::TetMesh &mesh,
+                       const CellStress    &stress,
+                       const Stress        &better,
+                       const TetQuadrature &rule,
+                       const unsigned int   cell)
+  {
+    const ElasticMatrices &matrices = stress.materials()[cell];
+    double                 sum      = 0.;
+    for (unsigned int q = 0; q < rule.points.size(); ++q)
+      {
+        const Point<3> point = position(mesh, cell, rule.points[q]);
+        double         s[6], difference[6];
+        stress.at(cell, rule.points[q], point, s);
+        better(cell, rule.points[q], point, difference);
+        for (unsigned int c = 0; c < 6; ++c)
+          difference[c] -= s[c];
+        sum += rule.weights[q] * matrices.complementary_density(difference);
+      }
+    return std::sqrt(std::max(sum, 0.) * mesh::cell_volume(mesh, cell));
+  }
+
   /**
    * The energy norm of the difference between a better stress and that of a solution,
    * the root of int_K (s* - s_h) : C^-1 : (s* - s_h), for every cell. Collective.
@@ -31,21 +55,7 @@ namespace tetradapt::compare
     together(communicator, [&] {
       const Slice slice = own_slice(mesh.n_cells(), communicator);
       for (unsigned int cell = slice.begin; cell < slice.end; ++cell)
-        {
-          const ElasticMatrices &matrices = stress.materials()[cell];
-          double                 sum      = 0.;
-          for (unsigned int q = 0; q < rule.points.size(); ++q)
-            {
-              const Point<3> point = position(mesh, cell, rule.points[q]);
-              double         s[6], difference[6];
-              stress.at(cell, rule.points[q], point, s);
-              better(cell, rule.points[q], point, difference);
-              for (unsigned int c = 0; c < 6; ++c)
-                difference[c] -= s[c];
-              sum += rule.weights[q] * matrices.complementary_density(difference);
-            }
-          result[cell] = std::sqrt(std::max(sum, 0.) * mesh::cell_volume(mesh, cell));
-        }
+        result[cell] = stress_difference_in(mesh, stress, better, rule, cell);
     });
     gather_slices(result, mesh.n_cells(), 1, communicator);
     return result;

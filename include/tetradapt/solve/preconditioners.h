@@ -34,7 +34,7 @@ namespace tetradapt::solve
             const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &layout);
 
   /**
-   * One V-cycle of smoothed-aggregation AMG (Vanek, Mandel and Brezina, Computing 56, 1996)
+   * One cycle of smoothed-aggregation AMG (Vanek, Mandel and Brezina, Computing 56, 1996)
    * with the six rigid motions as near null space, for a matrix of degree 1 times
    * @p scale, which single precision needs near one. Copies what it needs of the matrix.
    * @tparam Number is float or double. Collective.
