@@ -30,6 +30,11 @@ string(JOIN " " DEAL_II_CXX_FLAGS ${_flags})
 string(REGEX REPLACE "-O[0-9]" "-O3" DEAL_II_CXX_FLAGS_RELEASE "${DEAL_II_CXX_FLAGS_RELEASE}")
 
 string(REGEX REPLACE "-fuse-ld=[a-z]+" "" DEAL_II_LINKER_FLAGS "${DEAL_II_LINKER_FLAGS}")
+if(CMAKE_BUILD_TYPE STREQUAL "Release")
+  # A program that exports all its names takes longer to start; only the backtraces of
+  # deal.II's assertions want them, and those are not compiled here.
+  string(REPLACE "-rdynamic" "" DEAL_II_LINKER_FLAGS "${DEAL_II_LINKER_FLAGS}")
+endif()
 find_program(TETRADAPT_MOLD mold)
 mark_as_advanced(TETRADAPT_MOLD)
 if(TETRADAPT_MOLD)
