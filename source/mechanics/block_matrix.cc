@@ -35,10 +35,12 @@ namespace tetradapt::mechanics
     };
   } // namespace
 
-  BlockMatrix::BlockMatrix(const DisplacementSpace &space)
-    : layout(space.vector_layout()), row_starts(space.n_owned_nodes() + 1, 0)
+  BlockMatrix::BlockMatrix(const DisplacementSpace &space) : layout(space.vector_layout())
   {
-    const NodeCells           around(space);
+    const NodeCells            around(space);
+    std::vector<std::size_t>  &row_starts = entries.begin;
+    std::vector<unsigned int> &columns    = entries.columns;
+    row_starts.resize(space.n_owned_nodes() + 1);
     const unsigned int        n_per_cell = space.n_nodes_per_cell();
     std::vector<unsigned int> last_row(space.n_local_nodes(),
                                        dealii::numbers::invalid_unsigned_int);
@@ -58,16 +60,15 @@ namespace tetradapt::mechanics
         std::sort(columns.begin() + row_starts[row], columns.end());
         row_starts[row + 1] = columns.size();
       }
-    blocks.assign(columns.size(), Block{});
+    entries.blocks.assign(columns.size(), Block{});
   }
 
   std::size_t
   BlockMatrix::find(unsigned int row, unsigned int column) const
   {
-    return std::lower_bound(columns.begin() + row_starts[row],
-                            columns.begin() + row_starts[row + 1],
-                            column)
-           - columns.begin();
+    const auto first = entries.columns.begin();
+    return std::lower_bound(first + entries.begin[row], first + entries.begin[row + 1], column)
+           - first;
   }
 
   void
@@ -79,10 +80,10 @@ namespace tetradapt::mechanics
     for (unsigned int row = 0; row < n_rows(); ++row)
       {
         double y0 = 0., y1 = 0., y2 = 0.;
-        for (std::size_t k = row_starts[row]; k < row_starts[row + 1]; ++k)
+        for (std::size_t k = entries.begin[row]; k < entries.begin[row + 1]; ++k)
           {
-            const Block        &b = blocks[k];
-            const double *const v = x + 3 * static_cast<std::size_t>(columns[k]);
+            const Block        &b = entries.blocks[k];
+            const double *const v = x + 3 * static_cast<std::size_t>(entries.columns[k]);
             y0 += b[0] * v[0] + b[1] * v[1] + b[2] * v[2];
             y1 += b[3] * v[0] + b[4] * v[1] + b[5] * v[2];
             y2 += b[6] * v[0] + b[7] * v[1] + b[8] * v[2];

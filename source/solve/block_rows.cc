@@ -54,7 +54,9 @@ namespace tetradapt::solve
   } // namespace
 
   template <typename Number, unsigned int n>
-  BlockOperator<Number, n>::BlockOperator(const BlockRows<n, n> &rows, const Layout &layout)
+  BlockOperator<Number, n>::BlockOperator(const BlockRows<n, n> &rows,
+                                          const Layout          &layout,
+                                          const double           scale)
     : layout(layout), begin(rows.begin), columns(rows.columns), blocks(rows.blocks.size())
   {
     for (std::size_t k = 0; k < blocks.size(); ++k)
@@ -62,7 +64,7 @@ namespace tetradapt::solve
         blocks[k].fill(0);
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int j = 0; j < n; ++j)
-            blocks[k][padded * j + i] = static_cast<Number>(rows.blocks[k][n * i + j]);
+            blocks[k][padded * j + i] = static_cast<Number>(scale * rows.blocks[k][n * i + j]);
       }
   }
 

@@ -3,11 +3,8 @@
 #include "tetradapt/solve/chebyshev.h"
 #include "tetradapt/solve/preconditioners.h"
 
+#include "coarsening.h"
 #include "dense_cholesky.h"
-#include "node_exchange.h"
-
-#include <deal.II/base/array_view.h>
-#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 
@@ -28,9 +25,8 @@ namespace tetradapt::solve
     {
     public:
       Prolongation() = default;
-      Prolongation(const BlockRows<n, 6> &rows, unsigned int n_rows)
-        : begin(rows.begin.begin(), rows.begin.begin() + n_rows + 1),
-          columns(rows.columns.begin(), rows.columns.begin() + begin.back()), blocks(begin.back())
+      explicit Prolongation(const BlockRows<n, 6> &rows)
+        : begin(rows.begin), columns(rows.columns), blocks(rows.blocks.size())
       {
         for (std::size_t k = 0; k < blocks.size(); ++k)
           std::copy(rows.blocks[k].begin(), rows.blocks[k].end(), blocks[k].begin());
@@ -78,8 +74,8 @@ namespace tetradapt::solve
     template <typename Number, unsigned int n>
     struct Level
     {
-      Level(const BlockRows<n, n> &rows, const Layout &layout)
-        : matrix(rows, layout),
+      Level(const BlockRows<n, n> &rows, const Layout &layout, double scale = 1.)
+        : matrix(rows, layout, scale),
           smoother(matrix, invert_blocks<Number, n>(matrix.diagonal_blocks()), smoother_degree),
           residual(layout)
       {
@@ -95,36 +91,12 @@ namespace tetradapt::solve
       mutable VectorOf<Number>     solution, correction, right_hand_side; ///< not on the finest
     };
 
-    template <unsigned int n>
-    std::vector<std::array<double, n * n>>
-    inverse_diagonal(const BlockRows<n, n> &matrix)
-    {
-      std::vector<std::array<double, n * n>> diagonal(matrix.n_rows());
-      for (unsigned int row = 0; row < matrix.n_rows(); ++row)
-        for (std::size_t k = matrix.begin[row]; k < matrix.begin[row + 1]; ++k)
-          if (matrix.columns[k] == row)
-            diagonal[row] = matrix.blocks[k];
-      return invert_blocks<double, n>(diagonal);
-    }
-
-    /** Unknowns of motions that an aggregate does not have get a one on the diagonal. */
-    void
-    fill_empty_rows(BlockRows<6, 6> &matrix)
-    {
-      for (unsigned int row = 0; row < matrix.n_rows(); ++row)
-        for (std::size_t k = matrix.begin[row]; k < matrix.begin[row + 1]; ++k)
-          if (matrix.columns[k] == row)
-            for (unsigned int i = 0; i < 6; ++i)
-              if (!(matrix.blocks[k][7 * i] > 0.))
-                matrix.blocks[k][7 * i] = 1.;
-    }
-
     /**
-     * The finest level is distributed like its matrix. From the next on, every rank holds
-     * everything and does the same, since these levels hold a few per cent of the work.
-     * They are in double precision always: where a stiff part hangs on a soft one, rounding
-     * its coarse matrix would outweigh what holds it. The finest level may be rounded: the
-     * cycle is positive as long as the levels below are.
+     * Levels are distributed like their matrices while they have enough nodes a rank, and on
+     * every rank from there on.
+     * Those below the finest are in double precision always: where a stiff part hangs on a
+     * soft one, rounding its coarse matrix would outweigh what holds it. The finest level
+     * may be rounded: the cycle is positive as long as the levels below are.
      */
     template <typename Number>
     class SmoothedAggregation : public ApproximateInverse<Number>
@@ -132,28 +104,19 @@ namespace tetradapt::solve
     public:
       SmoothedAggregation(const BlockRows<3, 3>           &rows,
                           const std::vector<NodeModes<3>> &modes,
-                          const Layout                    &layout)
-        : communicator(layout->get_mpi_communicator()), fine(rows, layout)
+                          const Layout                    &layout,
+                          double                           scale)
+        : fine(rows, layout, scale)
       {
-        const Aggregates aggregates = aggregate(rows, fine_threshold);
-        auto             tentative  = tentative_prolongation<3>(aggregates, modes);
-        const auto   counts = dealii::Utilities::MPI::all_gather(communicator, aggregates.count);
-        unsigned int first = 0, total = 0;
-        for (unsigned int rank = 0; rank < counts.size(); ++rank)
-          {
-            first
-              += rank < dealii::Utilities::MPI::this_mpi_process(communicator) ? counts[rank] : 0;
-            total += counts[rank];
-          }
-        auto P            = smooth<3>(rows,
-                           inverse_diagonal(rows),
-                           with_ghosts(aggregates, tentative.rows, first, layout),
-                           total,
-                           damping / fine.smoother.largest_eigenvalue());
-        fine.prolongation = Prolongation<Number, 3>(P, rows.n_rows());
-        append_ghost_rows(P, layout);
-        auto coarse = sum_over_ranks(galerkin(rows, P, total), communicator);
-        build_coarse(std::move(coarse), gather_modes(tentative.coarse_modes, communicator));
+        auto coarsening = coarsen(
+          rows, modes, layout, fine_threshold, damping / fine.smoother.largest_eigenvalue(), 0.);
+        if (!coarsening)
+          return;
+        fine.prolongation = Prolongation<Number, 3>(coarsening->prolongation);
+        for (auto &block : coarsening->coarse.rows.blocks)
+          for (double &entry : block)
+            entry *= scale;
+        build_coarse(std::move(coarsening->coarse));
       }
 
       void
@@ -164,31 +127,25 @@ namespace tetradapt::solve
 
     private:
       void
-      build_coarse(BlockRows<6, 6> matrix, std::vector<NodeModes<6>> modes)
+      build_coarse(CoarseMatrix matrix)
       {
-        fill_empty_rows(matrix);
-        while (matrix.n_rows() > max_coarse_rows)
+        while (matrix.n_nodes > max_coarse_rows)
           {
-            const unsigned int n_rows = matrix.n_rows();
-            coarse.push_back(std::make_unique<Level<double, 6>>(
-              matrix, std::make_shared<dealii::Utilities::MPI::Partitioner>(6 * n_rows)));
+            coarse.push_back(std::make_unique<Level<double, 6>>(matrix.rows, matrix.layout));
             Level<double, 6> &level      = *coarse.back();
-            const Aggregates  aggregates = aggregate(matrix, coarse_threshold);
-            if (aggregates.count == 0 || 2 * aggregates.count > n_rows)
+            auto              coarsening = coarsen(matrix.rows,
+                                      matrix.modes,
+                                      matrix.layout,
+                                      coarse_threshold,
+                                      damping / level.smoother.largest_eigenvalue(),
+                                      2.);
+            if (!coarsening)
               return; // nothing gained by going on: the smoother has to do
-            const auto tentative = tentative_prolongation<6>(aggregates, modes);
-            const auto P         = smooth<6>(matrix,
-                                     inverse_diagonal(matrix),
-                                     LocalTentative<6>{aggregates.of_node, tentative.rows},
-                                     aggregates.count,
-                                     damping / level.smoother.largest_eigenvalue());
-            level.prolongation   = Prolongation<double, 6>(P, n_rows);
-            matrix               = galerkin(matrix, P, aggregates.count);
-            fill_empty_rows(matrix);
-            modes = tentative.coarse_modes;
+            level.prolongation = Prolongation<double, 6>(coarsening->prolongation);
+            matrix             = std::move(coarsening->coarse);
           }
-        bottom = std::make_unique<DenseCholesky>(matrix);
-        bottom_values.reinit(6 * matrix.n_rows());
+        bottom = std::make_unique<DenseCholesky>(matrix.rows);
+        bottom_values.reinit(matrix.layout);
       }
 
       /** x = about A^-1 b on a level; @p next is the one below in coarse. */
@@ -208,14 +165,28 @@ namespace tetradapt::solve
               = next < coarse.size() ? coarse[next]->right_hand_side : bottom_values;
             forces = 0.;
             level.prolongation.add_transposed(forces.begin(), level.residual.begin());
-            if (n == 3)
-              dealii::Utilities::MPI::sum(dealii::ArrayView<const double>(forces.begin(),
-                                                                          forces.size()),
-                                          communicator,
-                                          dealii::ArrayView<double>(forces.begin(), forces.size()));
-            level.prolongation.add(x.begin(), solve_below(next).begin());
+            add_up(forces, *level.matrix.vector_layout());
+            const VectorOf<double> &correction = solve_below(next);
+            correction.update_ghost_values();
+            level.prolongation.add(x.begin(), correction.begin());
+            correction.zero_out_ghost_values();
           }
         level.smoother.step(x, b);
+      }
+
+      /** Sums forces to which the ranks of the finer level @p from have added their parts. */
+      void
+      add_up(VectorOf<double> &forces, const dealii::Utilities::MPI::Partitioner &from) const
+      {
+        if (forces.get_partitioner()->n_mpi_processes() > 1)
+          forces.compress(dealii::VectorOperation::add);
+        else if (from.n_mpi_processes() > 1)
+          MPI_Allreduce(MPI_IN_PLACE,
+                        forces.begin(),
+                        static_cast<int>(forces.size()),
+                        MPI_DOUBLE,
+                        MPI_SUM,
+                        from.get_mpi_communicator());
       }
 
       /** The correction for the right-hand side that is stored with level @p i of coarse.
@@ -239,29 +210,11 @@ namespace tetradapt::solve
         return level.solution;
       }
 
-      MPI_Comm                                       communicator;
       Level<Number, 3>                               fine;
       std::vector<std::unique_ptr<Level<double, 6>>> coarse;
       std::unique_ptr<DenseCholesky>                 bottom;
       mutable VectorOf<double>                       bottom_values;
     };
-
-    BlockRows<3, 3>
-    scaled_rows(const mechanics::BlockMatrix &matrix, double scale)
-    {
-      BlockRows<3, 3> rows;
-      rows.columns.resize(matrix.n_blocks());
-      rows.blocks.resize(matrix.n_blocks());
-      for (std::size_t k = 0; k < matrix.n_blocks(); ++k)
-        {
-          rows.columns[k] = matrix.column(k);
-          for (unsigned int i = 0; i < 9; ++i)
-            rows.blocks[k][i] = scale * matrix.block(k)[i];
-        }
-      for (unsigned int row = 0; row < matrix.n_rows(); ++row)
-        rows.begin.push_back(matrix.row_end(row));
-      return rows;
-    }
 
     std::vector<NodeModes<3>>
     rigid_modes(const mechanics::DisplacementSpace      &space,
@@ -294,9 +247,10 @@ namespace tetradapt::solve
            const mechanics::PrescribedDisplacement &prescribed,
            const double                             scale)
   {
-    return std::make_unique<SmoothedAggregation<Number>>(scaled_rows(matrix, scale),
+    return std::make_unique<SmoothedAggregation<Number>>(matrix.rows(),
                                                          rigid_modes(space, prescribed),
-                                                         space.vector_layout());
+                                                         space.vector_layout(),
+                                                         scale);
   }
 
   template std::unique_ptr<ApproximateInverse<float>>

@@ -4,8 +4,28 @@
 
 #include "tetradapt/mechanics/linear_operator.h"
 
+#include <array>
+#include <vector>
+
 namespace tetradapt::mechanics
 {
+  /** A sparse matrix of n x m blocks in compressed rows; blocks are stored row by row. */
+  template <unsigned int n, unsigned int m>
+  struct BlockRows
+  {
+    using Block = std::array<double, n * m>;
+
+    std::vector<std::size_t>  begin{0}; ///< one more than rows
+    std::vector<unsigned int> columns;
+    std::vector<Block>        blocks;
+
+    unsigned int
+    n_rows() const
+    {
+      return begin.size() - 1;
+    }
+  };
+
   /**
    * A sparse matrix of 3x3 blocks on the nodes of a DisplacementSpace: complete
    * rows for the owned nodes, columns in local numbering (owned nodes, then
@@ -15,7 +35,7 @@ namespace tetradapt::mechanics
   class BlockMatrix : public LinearOperator<double>
   {
   public:
-    using Block = std::array<double, 9>; ///< row by row
+    using Block = BlockRows<3, 3>::Block;
 
     /** The pattern of the space's couplings, all values zero. */
     explicit BlockMatrix(const DisplacementSpace &space);
@@ -23,37 +43,43 @@ namespace tetradapt::mechanics
     unsigned int
     n_rows() const
     {
-      return row_starts.size() - 1;
+      return entries.n_rows();
     }
     std::size_t
     n_blocks() const
     {
-      return columns.size();
+      return entries.columns.size();
     }
     std::size_t
     row_begin(unsigned int row) const
     {
-      return row_starts[row];
+      return entries.begin[row];
     }
     std::size_t
     row_end(unsigned int row) const
     {
-      return row_starts[row + 1];
+      return entries.begin[row + 1];
     }
     unsigned int
     column(std::size_t entry) const
     {
-      return columns[entry];
+      return entries.columns[entry];
     }
     Block &
     block(std::size_t entry)
     {
-      return blocks[entry];
+      return entries.blocks[entry];
     }
     const Block &
     block(std::size_t entry) const
     {
-      return blocks[entry];
+      return entries.blocks[entry];
+    }
+    /** All of it; columns are sorted in each row. */
+    const BlockRows<3, 3> &
+    rows() const
+    {
+      return entries;
     }
     /** Where row @p row keeps column @p column, which must be in the pattern. */
     std::size_t
@@ -70,9 +96,7 @@ namespace tetradapt::mechanics
 
   private:
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
-    std::vector<std::size_t>                                   row_starts;
-    std::vector<unsigned int>                                  columns; ///< sorted in each row
-    std::vector<Block>                                         blocks;
+    BlockRows<3, 3>                                            entries;
   };
 } // namespace tetradapt::mechanics
 

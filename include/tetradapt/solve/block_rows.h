@@ -2,29 +2,11 @@
 #ifndef tetradapt_solve_block_rows_h
 #define tetradapt_solve_block_rows_h
 
-#include "tetradapt/mechanics/linear_operator.h"
-
-#include <array>
-#include <vector>
+#include "tetradapt/mechanics/block_matrix.h"
 
 namespace tetradapt::solve
 {
-  /** A sparse matrix of n x m blocks in compressed rows; blocks are stored row by row. */
-  template <unsigned int n, unsigned int m>
-  struct BlockRows
-  {
-    using Block = std::array<double, n * m>;
-
-    std::vector<std::size_t>  begin{0}; ///< one more than rows
-    std::vector<unsigned int> columns;
-    std::vector<Block>        blocks;
-
-    unsigned int
-    n_rows() const
-    {
-      return begin.size() - 1;
-    }
-  };
+  using mechanics::BlockRows;
 
   /**
    * A square matrix of n x n blocks for products: columns of blocks are stored one after
@@ -36,8 +18,8 @@ namespace tetradapt::solve
   public:
     using Layout = std::shared_ptr<const dealii::Utilities::MPI::Partitioner>;
 
-    /** Copies @p rows, which are those of the owned nodes. */
-    BlockOperator(const BlockRows<n, n> &rows, const Layout &layout);
+    /** Copies @p rows, which are those of the owned nodes, times @p scale. */
+    BlockOperator(const BlockRows<n, n> &rows, const Layout &layout, double scale = 1.);
 
     void
     vmult(mechanics::VectorOf<Number>       &destination,
