@@ -19,105 +19,112 @@ namespace tetradapt::mechanics
                                        unsigned int           degree,
                                        const mesh::EdgeTable *edges)
     : mesh(partition.mesh()), edges(edges), polynomial_degree(degree),
-      mpi_communicator(partition.communicator()),
-      local_nodes(mesh.n_points() + (degree == 2 ? edges->edges.size() : 0), invalid)
+      mpi_communicator(partition.communicator())
   {
-    std::vector<global_dof_index> numbers;
-    const auto                    firsts = number(partition, numbers);
-    const unsigned int            rank = dealii::Utilities::MPI::this_mpi_process(mpi_communicator);
-    const std::pair<global_dof_index, global_dof_index> range(firsts[rank], firsts[rank + 1]);
-    const auto                                          is_owned = [&](unsigned int field_node) {
-      return numbers[field_node] >= range.first && numbers[field_node] < range.second;
-    };
-
-    n_owned = range.second - range.first;
+    const unsigned int        rank = dealii::Utilities::MPI::this_mpi_process(mpi_communicator);
+    std::vector<unsigned int> numbers;
+    const auto                firsts = number(partition, numbers);
+    const unsigned int        begin = firsts[rank], end = firsts[rank + 1];
+    n_owned = end - begin;
     field_nodes.resize(n_owned);
     for (unsigned int node = 0; node < numbers.size(); ++node)
-      if (is_owned(node))
-        {
-          local_nodes[node]              = numbers[node] - range.first;
-          field_nodes[local_nodes[node]] = node;
-        }
-    if (partition.n_ranks() == 1)
-      cells = partition.order();
-    else
-      for (const unsigned int cell : partition.order())
-        {
-          bool needed = partition.owner(cell) == rank;
-          for (unsigned int i = 0; i < n_nodes_per_cell() && !needed; ++i)
-            needed = is_owned(cell_node(cell, i));
-          if (needed)
-            cells.push_back(cell);
-        }
-    add_ghosts(numbers, range);
+      if (numbers[node] >= begin && numbers[node] < end)
+        field_nodes[numbers[node] - begin] = node;
+    find_cells(partition, rank, numbers, begin, end);
 
-    IndexSet owned(3 * firsts.back()), ghosts(3 * firsts.back());
-    owned.add_range(3 * range.first, 3 * range.second);
-    for (unsigned int l = n_owned; l < field_nodes.size(); ++l)
-      ghosts.add_range(3 * numbers[field_nodes[l]], 3 * (numbers[field_nodes[l]] + 1));
-    ghosts.compress();
+    IndexSet owned(3 * global_dof_index(firsts.back())), ghosts(owned.size());
+    owned.add_range(3 * global_dof_index(begin), 3 * global_dof_index(end));
+    if (partition.n_ranks() == 1)
+      local_nodes = std::move(numbers);
+    else
+      {
+        add_ghosts(numbers, begin, end);
+        local_nodes.assign(numbers.size(), invalid);
+        for (unsigned int l = 0; l < field_nodes.size(); ++l)
+          local_nodes[field_nodes[l]] = l;
+        for (unsigned int l = n_owned; l < field_nodes.size(); ++l)
+          {
+            const global_dof_index global = numbers[field_nodes[l]];
+            ghosts.add_range(3 * global, 3 * (global + 1));
+          }
+        ghosts.compress();
+      }
     partitioner
       = std::make_shared<dealii::Utilities::MPI::Partitioner>(owned, ghosts, mpi_communicator);
   }
 
-  std::vector<global_dof_index>
-  DisplacementSpace::number(const MeshPartition           &partition,
-                            std::vector<global_dof_index> &numbers) const
+  std::vector<unsigned int>
+  DisplacementSpace::number(const MeshPartition       &partition,
+                            std::vector<unsigned int> &numbers) const
   {
-    const unsigned int n_per_cell = n_nodes_per_cell(), n_ranks = partition.n_ranks();
-    const auto         for_each = [&](const auto &action) {
-      for (const unsigned int cell : partition.order())
-        for (unsigned int i = 0; i < n_per_cell; ++i)
-          action(cell_node(cell, i), partition.owner(cell));
-    };
-    std::vector<unsigned int> owners;
-    if (n_ranks > 1)
+    numbers.assign(mesh.n_points() + (polynomial_degree == 2 ? edges->edges.size() : 0), invalid);
+    std::vector<unsigned int> firsts(partition.n_ranks() + 1, 0);
+    unsigned int              next = 0;
+    for (unsigned int rank = 0; rank < partition.n_ranks(); ++rank)
       {
-        owners.assign(n_field_nodes(), invalid);
-        for_each([&](unsigned int node, unsigned int rank) {
-          owners[node] = std::min(owners[node], rank);
-        });
+        firsts[rank] = next;
+        for (unsigned int k = partition.first_cell(rank); k < partition.first_cell(rank + 1); ++k)
+          for (unsigned int i = 0; i < n_nodes_per_cell(); ++i)
+            {
+              unsigned int &number = numbers[cell_node(partition.order()[k], i)];
+              if (number == invalid)
+                number = next++;
+            }
       }
-    std::vector<global_dof_index> firsts(n_ranks + 1, 0);
-    for (const unsigned int owner : owners)
-      if (owner != invalid) // points without cells have none
-        ++firsts[owner + 1];
-    for (unsigned int rank = 0; rank < n_ranks; ++rank)
-      firsts[rank + 1] += firsts[rank];
-
-    auto next = firsts;
-    numbers.assign(n_field_nodes(), dealii::numbers::invalid_dof_index);
-    for_each([&](unsigned int node, unsigned int) {
-      if (numbers[node] == dealii::numbers::invalid_dof_index)
-        numbers[node] = next[n_ranks > 1 ? owners[node] : 0]++;
-    });
-    firsts.back() = next[n_ranks - 1];
+    firsts.back() = next; // points without cells have no number
     return firsts;
   }
 
   void
-  DisplacementSpace::add_ghosts(const std::vector<global_dof_index>                 &numbers,
-                                const std::pair<global_dof_index, global_dof_index> &owned)
+  DisplacementSpace::find_cells(const MeshPartition             &partition,
+                                unsigned int                     rank,
+                                const std::vector<unsigned int> &numbers,
+                                unsigned int                     begin,
+                                unsigned int                     end)
   {
-    if (owned.second - owned.first == numbers.size())
-      return;
+    const auto &order = partition.order();
+    if (partition.n_ranks() == 1)
+      {
+        cells = order;
+        return;
+      }
+    const unsigned int first = partition.first_cell(rank), last = partition.first_cell(rank + 1);
+    std::vector<unsigned char> is_near(mesh.n_points(), 0); // points of the rank's cells
+    for (unsigned int k = first; k < last; ++k)
+      for (const unsigned int point : mesh.cells[order[k]])
+        is_near[point] = 1;
+    const auto is_needed = [&](unsigned int cell) {
+      const auto &points = mesh.cells[cell];
+      if (std::none_of(points.begin(), points.end(), [&](auto p) { return is_near[p] != 0; }))
+        return false; // most are far
+      for (unsigned int i = 0; i < n_nodes_per_cell(); ++i)
+        if (numbers[cell_node(cell, i)] >= begin && numbers[cell_node(cell, i)] < end)
+          return true;
+      return false;
+    };
+    for (unsigned int k = 0; k < order.size(); ++k)
+      if ((k >= first && k < last) || is_needed(order[k]))
+        cells.push_back(order[k]);
+  }
+
+  void
+  DisplacementSpace::add_ghosts(const std::vector<unsigned int> &numbers,
+                                unsigned int                     begin,
+                                unsigned int                     end)
+  {
     std::vector<unsigned int> ghosts;
     for (const unsigned int cell : cells)
       for (unsigned int i = 0; i < n_nodes_per_cell(); ++i)
         {
           const unsigned int node = cell_node(cell, i);
-          if (numbers[node] < owned.first || numbers[node] >= owned.second)
+          if (numbers[node] < begin || numbers[node] >= end)
             ghosts.push_back(node);
         }
     std::sort(ghosts.begin(), ghosts.end(), [&](unsigned int i, unsigned int j) {
       return numbers[i] < numbers[j];
     });
     ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
-    for (const unsigned int node : ghosts)
-      {
-        local_nodes[node] = field_nodes.size();
-        field_nodes.push_back(node);
-      }
+    field_nodes.insert(field_nodes.end(), ghosts.begin(), ghosts.end());
   }
 
   void

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 
 namespace tetradapt::mechanics
 {
@@ -77,11 +78,18 @@ namespace tetradapt::mechanics
     const auto centroids = cell_centroids(mesh);
     const auto box       = mesh::bounding_box(mesh);
     cell_order           = mesh::SpaceCurve(box.first, box.second).order(centroids);
-    if (rank_count > 1)
-      {
-        std::vector<unsigned int> cells = cell_order;
-        owners.resize(cells.size());
-        bisect(centroids, cells.begin(), cells.end(), 0, rank_count, owners);
-      }
+    firsts               = {0, mesh.n_cells()};
+    if (rank_count == 1)
+      return;
+    std::vector<unsigned int> cells = cell_order, owners(cells.size());
+    bisect(centroids, cells.begin(), cells.end(), 0, rank_count, owners);
+    firsts.assign(rank_count + 1, 0);
+    for (const unsigned int owner : owners)
+      ++firsts[owner + 1];
+    std::partial_sum(firsts.begin(), firsts.end(), firsts.begin());
+    auto next = firsts;
+    for (const unsigned int cell : cell_order)
+      cells[next[owners[cell]]++] = cell;
+    cell_order = std::move(cells);
   }
 } // namespace tetradapt::mechanics

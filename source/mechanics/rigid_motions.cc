@@ -88,27 +88,6 @@ namespace tetradapt::mechanics
       message << ". Add a support, or components to one, that prevents this.";
       throw core::InputError(message.str());
     }
-    /** The points of each part; a point where parts touch belongs to each. */
-    std::vector<std::vector<unsigned int>>
-    part_members(const mesh::TetMesh &mesh)
-    {
-      const std::vector<unsigned int>        part_of = mesh::connected_components(mesh);
-      std::vector<std::vector<unsigned int>> members;
-      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-        {
-          if (part_of[c] >= members.size())
-            members.resize(part_of[c] + 1);
-          members[part_of[c]].insert(members[part_of[c]].end(),
-                                     mesh.cells[c].begin(),
-                                     mesh.cells[c].end());
-        }
-      for (auto &part : members)
-        {
-          std::sort(part.begin(), part.end());
-          part.erase(std::unique(part.begin(), part.end()), part.end());
-        }
-      return members;
-    }
 
     /** Adds what the supports of one node hold. */
     void
@@ -148,22 +127,34 @@ namespace tetradapt::mechanics
   void
   check_rigid_motions(const mesh::TetMesh &mesh, const PrescribedDisplacement &prescribed)
   {
-    const auto        members = part_members(mesh);
-    std::vector<Part> parts(members.size());
-    for (unsigned int k = 0; k < parts.size(); ++k)
-      parts[k].lower = parts[k].upper = mesh.points[members[k].front()];
-    for (unsigned int k = 0; k < parts.size(); ++k)
-      for (const unsigned int p : members[k])
-        for (unsigned int d = 0; d < 3; ++d)
+    const std::vector<unsigned int> part_of = mesh::connected_components(mesh);
+    std::vector<Part>               parts;
+    // Mid-edge nodes follow their end points' supports, so vertices suffice. A point where
+    // parts touch belongs to each.
+    std::vector<std::pair<unsigned int, unsigned int>> supported; // part, point
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      {
+        const unsigned int k = part_of[c];
+        if (k >= parts.size())
           {
-            parts[k].lower[d] = std::min(parts[k].lower[d], mesh.points[p][d]);
-            parts[k].upper[d] = std::max(parts[k].upper[d], mesh.points[p][d]);
+            parts.resize(k + 1);
+            parts[k].lower = parts[k].upper = mesh.points[mesh.cells[c][0]];
           }
-    // Mid-edge nodes follow their end points' supports, so vertices suffice.
-    for (unsigned int k = 0; k < parts.size(); ++k)
-      for (const unsigned int p : members[k])
-        if (prescribed.fixed[p] != 0)
-          add_node(mesh.points[p], prescribed, p, parts[k]);
+        for (const unsigned int p : mesh.cells[c])
+          {
+            for (unsigned int d = 0; d < 3; ++d)
+              {
+                parts[k].lower[d] = std::min(parts[k].lower[d], mesh.points[p][d]);
+                parts[k].upper[d] = std::max(parts[k].upper[d], mesh.points[p][d]);
+              }
+            if (prescribed.fixed[p] != 0)
+              supported.emplace_back(k, p);
+          }
+      }
+    std::sort(supported.begin(), supported.end());
+    supported.erase(std::unique(supported.begin(), supported.end()), supported.end());
+    for (const auto &[k, p] : supported)
+      add_node(mesh.points[p], prescribed, p, parts[k]);
     for (const Part &part : parts)
       check_part(part, parts.size());
   }

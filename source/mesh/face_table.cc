@@ -2,6 +2,7 @@
 #include "tetradapt/mesh/face_table.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace tetradapt::mesh
 {
@@ -85,29 +86,26 @@ namespace tetradapt::mesh
   std::vector<unsigned int>
   connected_components(const TetMesh &mesh)
   {
-    constexpr unsigned int    none      = dealii::numbers::invalid_unsigned_int;
-    const auto                neighbors = cell_neighbors(mesh);
-    std::vector<unsigned int> part(mesh.cells.size(), none);
-    std::vector<unsigned int> front;
+    // Trees of cells that hang together; a root is the first cell of its tree.
+    std::vector<unsigned int> parent(mesh.cells.size());
+    std::iota(parent.begin(), parent.end(), 0u);
+    const auto root = [&](unsigned int cell) {
+      while (parent[cell] != cell)
+        cell = parent[cell] = parent[parent[cell]];
+      return cell;
+    };
+    const std::size_t n_slots = 4 * mesh.cells.size();
+    FaceTable(mesh).for_each_triangle(
+      [&](const FaceTable::Entry *first, const FaceTable::Entry *last) {
+        if (last - first < 2 || first[1].slot >= n_slots)
+          return;
+        const unsigned int a = root(first[0].slot / 4), b = root(first[1].slot / 4);
+        parent[std::max(a, b)] = std::min(a, b);
+      });
+    std::vector<unsigned int> part(mesh.cells.size());
     unsigned int              n_parts = 0;
-    for (unsigned int start = 0; start < part.size(); ++start)
-      if (part[start] == none)
-        {
-          part[start] = n_parts;
-          front.assign(1, start);
-          while (!front.empty())
-            {
-              const unsigned int cell = front.back();
-              front.pop_back();
-              for (const unsigned int neighbor : neighbors[cell])
-                if (neighbor != none && part[neighbor] == none)
-                  {
-                    part[neighbor] = n_parts;
-                    front.push_back(neighbor);
-                  }
-            }
-          ++n_parts;
-        }
+    for (unsigned int cell = 0; cell < part.size(); ++cell)
+      part[cell] = parent[cell] == cell ? n_parts++ : part[root(cell)];
     return part;
   }
 } // namespace tetradapt::mesh

@@ -16,9 +16,9 @@ namespace tetradapt::mechanics
    * The continuous displacements of degree 1 or 2 on a partitioned mesh, and the
    * numbering of their nodes over the ranks.
    *
-   * Nodes are numbered rank by rank, in the order in which the partition's cells first
-   * name them; component c of node i is unknown 3 i + c. Of the ranks whose cells have a
-   * node, the first owns it. A node has a number in the NodalField ("field
+   * Nodes are numbered in the order in which the partition's cells first name them, and so
+   * rank by rank: of the ranks whose cells have a node, the first owns it. Component c of
+   * node i is unknown 3 i + c. A node has a number in the NodalField ("field
    * node"), the same on every rank, and on the ranks that need it a "local node":
    * first the nodes that the rank owns, then the ghosts.
    */
@@ -123,15 +123,20 @@ namespace tetradapt::mechanics
     gather(const Vector &vector, std::vector<dealii::Tensor<1, 3>> &field) const;
 
   private:
-    /** Numbers all nodes of the mesh; returns the first number of each rank. */
-    std::vector<dealii::types::global_dof_index>
-    number(const MeshPartition                          &partition,
-           std::vector<dealii::types::global_dof_index> &numbers) const;
-    /** The nodes of other ranks that touching_cells() have, by global number. */
+    /** Numbers all nodes of the mesh; returns the first number of each rank, then how many
+     * there are. */
+    std::vector<unsigned int>
+    number(const MeshPartition &partition, std::vector<unsigned int> &numbers) const;
+    /** Finds touching_cells(); the rank owns the numbers from @p begin to before @p end. */
     void
-    add_ghosts(
-      const std::vector<dealii::types::global_dof_index>                                &numbers,
-      const std::pair<dealii::types::global_dof_index, dealii::types::global_dof_index> &owned);
+    find_cells(const MeshPartition             &partition,
+               unsigned int                     rank,
+               const std::vector<unsigned int> &numbers,
+               unsigned int                     begin,
+               unsigned int                     end);
+    /** The nodes of other ranks that touching_cells() have, by number. */
+    void
+    add_ghosts(const std::vector<unsigned int> &numbers, unsigned int begin, unsigned int end);
 
     const mesh::TetMesh                                       &mesh;
     const mesh::EdgeTable                                     *edges;

@@ -9,8 +9,8 @@
 namespace tetradapt::mechanics
 {
   /**
-   * The cells of a TetMesh in the order in which they are worked on, and the MPI rank that
-   * owns each.
+   * The cells of a TetMesh shared out among the MPI ranks, in the order in which they are
+   * worked on.
    *
    * The order follows a curve through space, so that what is numbered cell by cell lies
    * close together in memory. The ranks get equally many cells: the body is cut in two at
@@ -38,25 +38,25 @@ namespace tetradapt::mechanics
     {
       return tet_mesh;
     }
-    /** All cells of the mesh, along the curve. */
+    /** All cells of the mesh, rank by rank, those of each rank along the curve. */
     const std::vector<unsigned int> &
     order() const
     {
       return cell_order;
     }
-    /** The rank that owns cell @p cell of the mesh. */
+    /** Where the cells of @p rank begin in order(); those of the last end with
+     * first_cell(n_ranks()). */
     unsigned int
-    owner(unsigned int cell) const
+    first_cell(unsigned int rank) const
     {
-      return owners.empty() ? 0 : owners[cell];
+      return firsts[rank];
     }
 
   private:
     const mesh::TetMesh      &tet_mesh;
     MPI_Comm                  mpi_communicator;
     unsigned int              rank_count;
-    std::vector<unsigned int> cell_order;
-    std::vector<unsigned int> owners; ///< empty on one rank
+    std::vector<unsigned int> cell_order, firsts;
   };
 } // namespace tetradapt::mechanics
 
