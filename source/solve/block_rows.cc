@@ -7,7 +7,8 @@ namespace tetradapt::solve
 {
   namespace
   {
-    /** y = A x; blocks of n columns of @p padded numbers each. */
+    /** y = A x; blocks of n columns. Each is read with what follows it, @p padded numbers
+     * in all: what the others make is left aside. */
     template <typename Number, unsigned int n, unsigned int padded>
     TETRADAPT_INLINE void
     multiply(std::size_t         n_rows,
@@ -22,13 +23,13 @@ namespace tetradapt::solve
           Number even[padded] = {}, odd[padded] = {};
           for (std::size_t k = begin[row]; k < begin[row + 1]; ++k)
             {
-              const Number *block = blocks + padded * n * k;
+              const Number *block = blocks + n * n * k;
               const Number *from  = x + n * std::size_t(columns[k]);
 #pragma GCC unroll 6
               for (unsigned int j = 0; j < n; ++j)
 #pragma GCC unroll 8
                 for (unsigned int i = 0; i < padded; ++i)
-                  (j % 2 == 0 ? even : odd)[i] += block[padded * j + i] * from[j];
+                  (j % 2 == 0 ? even : odd)[i] += block[n * j + i] * from[j];
             }
           for (unsigned int i = 0; i < n; ++i)
             y[n * row + i] = even[i] + odd[i];
@@ -57,15 +58,13 @@ namespace tetradapt::solve
   BlockOperator<Number, n>::BlockOperator(const BlockRows<n, n> &rows,
                                           const Layout          &layout,
                                           const double           scale)
-    : layout(layout), begin(rows.begin), columns(rows.columns), blocks(rows.blocks.size())
+    : layout(layout), begin(rows.begin), columns(rows.columns)
   {
-    for (std::size_t k = 0; k < blocks.size(); ++k)
-      {
-        blocks[k].fill(0);
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int j = 0; j < n; ++j)
-            blocks[k][padded * j + i] = static_cast<Number>(scale * rows.blocks[k][n * i + j]);
-      }
+    blocks.resize(n * n * rows.blocks.size() + padded - n, Number(0));
+    for (std::size_t k = 0; k < rows.blocks.size(); ++k)
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          blocks[n * (n * k + j) + i] = static_cast<Number>(scale * rows.blocks[k][n * i + j]);
   }
 
   template <typename Number, unsigned int n>
@@ -74,12 +73,12 @@ namespace tetradapt::solve
                                   const mechanics::VectorOf<Number> &source) const
   {
     source.update_ghost_values();
-    if (!blocks.empty())
+    if (!columns.empty())
       multiply_blocks(std::integral_constant<unsigned int, n>(),
                       begin.size() - 1,
                       begin.data(),
                       columns.data(),
-                      blocks.data()->data(),
+                      blocks.data(),
                       source.begin(),
                       destination.begin());
     source.zero_out_ghost_values();
@@ -97,7 +96,7 @@ namespace tetradapt::solve
           if (columns[k] == row)
             for (unsigned int i = 0; i < n; ++i)
               for (unsigned int j = 0; j < n; ++j)
-                diagonal[row][n * i + j] = blocks[k][padded * j + i];
+                diagonal[row][n * i + j] = blocks[n * (n * k + j) + i];
       }
     return diagonal;
   }

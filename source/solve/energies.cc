@@ -17,59 +17,52 @@ namespace tetradapt::solve
       return x;
     }
 
-    /** The derivatives of the shape functions at the points of a quadrature rule by the four
-     * barycentric coordinates, as if those were independent. */
-    class ShapeTable
+    /** Displacement gradients at the points of a quadrature rule, cell by cell: the shape
+     * functions' derivatives by the four barycentric coordinates, as if those were
+     * independent, are the same in every cell. */
+    class GradientTable
     {
     public:
-      ShapeTable(unsigned int degree, const dealii::QGaussSimplex<3> &quadrature)
+      GradientTable(unsigned int degree, const dealii::QGaussSimplex<3> &quadrature)
+        : degree(degree)
       {
-        // Gradients along four unit vectors, a component at a time.
         for (const auto &p : quadrature.get_points())
-          {
-            points.push_back({{1. - p[0] - p[1] - p[2], p[0], p[1], p[2]}});
-            derivatives.emplace_back();
-            for (unsigned int i = 0; i < 4; ++i)
-              {
-                std::array<dealii::Tensor<1, 3>, 4>  directions;
-                std::array<dealii::Tensor<1, 3>, 10> gradients;
-                directions[i][0] = 1.;
-                mesh::shape_gradients(degree, points.back(), directions, gradients.data());
-                for (unsigned int k = 0; k < 10; ++k)
-                  derivatives.back()[i][k] = gradients[k][0];
-              }
-          }
+          points.push_back({{1. - p[0] - p[1] - p[2], p[0], p[1], p[2]}});
       }
 
-      /** The displacement gradients at the points, for a cell whose barycentric coordinates
-       * have the gradients @p directions. */
+      /** At all points of @p cell. */
       void
-      compute(const mesh::NodalField                    &field,
-              unsigned int                               cell,
-              const std::array<dealii::Tensor<1, 3>, 4> &directions,
-              std::vector<dealii::Tensor<2, 3>>         &gradients) const
+      compute(const mesh::NodalField            &field,
+              unsigned int                       cell,
+              std::vector<dealii::Tensor<2, 3>> &gradients) const
       {
-        const unsigned int                   n = field.n_nodes_per_cell();
+        const auto                           directions = barycentric_gradients(field.mesh(), cell);
         std::array<dealii::Tensor<1, 3>, 10> u;
-        for (unsigned int k = 0; k < n; ++k)
+        for (unsigned int k = 0; k < field.n_nodes_per_cell(); ++k)
           u[k] = field.values[field.node(cell, k)];
         for (unsigned int q = 0; q < points.size(); ++q)
           {
-            gradients[q] = dealii::Tensor<2, 3>();
+            const mesh::Barycentric            &b = points[q];
+            std::array<dealii::Tensor<1, 3>, 4> along;
             for (unsigned int i = 0; i < 4; ++i)
-              {
-                dealii::Tensor<1, 3> along;
-                for (unsigned int k = 0; k < n; ++k)
-                  along += derivatives[q][i][k] * u[k];
-                gradients[q] += outer_product(along, directions[i]);
-              }
+              along[i] = degree == 1 ? u[i] : (4. * b[i] - 1.) * u[i];
+            if (degree == 2)
+              for (unsigned int e = 0; e < 6; ++e)
+                {
+                  const auto &[i, j] = mesh::edge_vertices[e];
+                  along[i] += 4. * b[j] * u[4 + e];
+                  along[j] += 4. * b[i] * u[4 + e];
+                }
+            gradients[q] = outer_product(along[0], directions[0]);
+            for (unsigned int i = 1; i < 4; ++i)
+              gradients[q] += outer_product(along[i], directions[i]);
           }
       }
 
       std::vector<mesh::Barycentric> points;
 
     private:
-      std::vector<std::array<std::array<double, 10>, 4>> derivatives;
+      unsigned int degree;
     };
   } // namespace
 
@@ -87,7 +80,7 @@ namespace tetradapt::solve
     const unsigned int begin = mesh.n_cells() * rank / n_ranks;
     const unsigned int end   = mesh.n_cells() * (rank + 1) / n_ranks;
 
-    const ShapeTable                  shapes(displacement.degree(), quadrature);
+    const GradientTable               table(displacement.degree(), quadrature);
     std::vector<dealii::Tensor<2, 3>> gradients(quadrature.size());
     Energies                          sum;
     for (unsigned int cell = begin; cell < end; ++cell)
@@ -95,10 +88,10 @@ namespace tetradapt::solve
         const int    region = mesh.regions[cell];
         const auto  &law    = materials.law(region);
         const double volume = mesh::cell_volume(mesh, cell);
-        shapes.compute(displacement, cell, mesh::barycentric_gradients(mesh, cell), gradients);
+        table.compute(displacement, cell, gradients);
         for (unsigned int q = 0; q < quadrature.size(); ++q)
           {
-            const mesh::Barycentric &b = shapes.points[q];
+            const mesh::Barycentric &b = table.points[q];
             if (displacement.pressure)
               {
                 const auto elastic = gradients[q]

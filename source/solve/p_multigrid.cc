@@ -49,19 +49,23 @@ namespace tetradapt::solve
         coarse.zero_out_ghost_values();
       }
 
+      /** coarse = P^T (b - product). */
       template <typename Number>
       void
-      restrict_to(VectorOf<Number> &coarse, const VectorOf<Number> &fine) const
+      restrict_residual(VectorOf<Number>       &coarse,
+                        const VectorOf<Number> &b,
+                        const VectorOf<Number> &product) const
       {
-        coarse          = Number(0);
-        Number *const y = coarse.begin();
-        const Number *x = fine.begin();
-        for (unsigned int node = 0; node < parents.size(); ++node, x += 3)
+        coarse             = Number(0);
+        Number *const y    = coarse.begin();
+        const Number *from = b.begin(), *less = product.begin();
+        for (unsigned int node = 0; node < parents.size(); ++node, from += 3, less += 3)
           for (unsigned int c = 0; c < 3; ++c)
             if ((fixed[node] >> c & 1) == 0)
               {
-                y[3 * parents[node][0] + c] += Number(0.5) * x[c];
-                y[3 * parents[node][1] + c] += Number(0.5) * x[c];
+                const Number half = Number(0.5) * (from[c] - less[c]);
+                y[3 * parents[node][0] + c] += half;
+                y[3 * parents[node][1] + c] += half;
               }
         coarse.compress(dealii::VectorOperation::add);
       }
@@ -86,7 +90,7 @@ namespace tetradapt::solve
           coarse_solver(std::move(coarse)),
           smoother(*matrix, invert_blocks<Number, 3>(matrix->diagonal_blocks()), smoother_degree)
       {
-        residual.reinit(fine_space.vector_layout());
+        product.reinit(fine_space.vector_layout());
         coarse_residual.reinit(coarse_space.vector_layout());
         coarse_correction.reinit(coarse_space.vector_layout());
       }
@@ -95,9 +99,8 @@ namespace tetradapt::solve
       vmult(VectorOf<Number> &destination, const VectorOf<Number> &source) const override
       {
         smoother.start(destination, source);
-        matrix->vmult(residual, destination);
-        residual.sadd(-1, 1, source);
-        transfer.restrict_to(coarse_residual, residual);
+        matrix->vmult(product, destination);
+        transfer.restrict_residual(coarse_residual, source, product);
         coarse_solver->vmult(coarse_correction, coarse_residual);
         transfer.add_prolongated(destination, coarse_correction);
         smoother.step(destination, source);
@@ -108,7 +111,7 @@ namespace tetradapt::solve
       Transfer                                    transfer;
       std::unique_ptr<ApproximateInverse<Number>> coarse_solver;
       ChebyshevSmoother<Number, 3>                smoother;
-      mutable VectorOf<Number>                    residual, coarse_residual, coarse_correction;
+      mutable VectorOf<Number>                    product, coarse_residual, coarse_correction;
     };
   } // namespace
 

@@ -10,7 +10,7 @@ namespace tetradapt::solve
 
   /**
    * A square matrix of n x n blocks for products: columns of blocks are stored one after
-   * the other and filled up to a register's width. Columns are local nodes of its layout.
+   * the other. Columns are local nodes of its layout.
    */
   template <typename Number, unsigned int n>
   class BlockOperator : public mechanics::LinearOperator<Number>
@@ -38,10 +38,10 @@ namespace tetradapt::solve
   private:
     static constexpr unsigned int padded = n == 3 ? 4 : 8;
 
-    Layout                                      layout;
-    std::vector<std::size_t>                    begin;
-    std::vector<unsigned int>                   columns;
-    std::vector<std::array<Number, padded * n>> blocks;
+    Layout                    layout;
+    std::vector<std::size_t>  begin;
+    std::vector<unsigned int> columns;
+    std::vector<Number>       blocks; ///< column by column, then what fills a register
   };
 } // namespace tetradapt::solve
 

@@ -3,20 +3,12 @@
 #define tetradapt_solve_chebyshev_h
 
 #include "tetradapt/mechanics/linear_operator.h"
-
-#include <array>
-#include <vector>
+#include "tetradapt/solve/block_jacobi.h"
 
 namespace tetradapt::solve
 {
   template <typename Number>
   using VectorOf = mechanics::VectorOf<Number>;
-
-  /** The inverses of the diagonal blocks, n x n, one a node and row by row. A block that
-   * cannot be inverted, or whose inverse is not positive, is taken for its diagonal. */
-  template <typename Number, unsigned int n>
-  std::vector<std::array<Number, n * n>>
-  invert_blocks(const std::vector<std::array<Number, n * n>> &blocks);
 
   /**
    * A smoother of multigrid: Chebyshev polynomials of the fourth kind in D^-1 A, with D the
@@ -35,7 +27,7 @@ namespace tetradapt::solve
     /** Collective. Keeps a reference to @p matrix. @param inverses as invert_blocks()
      * makes them; zero rows keep an unknown at zero. */
     ChebyshevSmoother(const mechanics::LinearOperator<Number> &matrix,
-                      std::vector<Block>                       inverses,
+                      const std::vector<Block>                &inverses,
                       unsigned int                             degree);
 
     /** One sweep from x = 0. degree - 1 products with the matrix. Collective. */
@@ -56,12 +48,12 @@ namespace tetradapt::solve
   private:
     double
     estimate_lambda() const;
-    /** The steps after the first; r is the residual. */
+    /** The steps from @p begin on; @p first is the residual before the last one. */
     void
-    iterate(VectorOf<Number> &x, unsigned int begin) const;
+    iterate(VectorOf<Number> &x, const VectorOf<Number> &first, unsigned int begin) const;
 
     const mechanics::LinearOperator<Number> &matrix;
-    std::vector<Block>                       inverses;
+    BlockJacobi<Number, n>                   inverses;
     unsigned int                             degree;
     double                                   lambda = 0.;
     mutable VectorOf<Number>                 residual, direction, product;
