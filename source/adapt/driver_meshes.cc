@@ -26,6 +26,16 @@ namespace tetradapt::adapt
       return parameters;
     }
 
+    /** The root of the sum of squares. */
+    double
+    norm(const std::vector<double> &indicators)
+    {
+      double squares = 0.;
+      for (const double indicator : indicators)
+        squares += indicator * indicator;
+      return std::sqrt(squares);
+    }
+
     /** The factor by which the error falls: as the size field foretells, but not less than
      * the number of tetrahedra leads one to expect. */
     double
@@ -34,12 +44,9 @@ namespace tetradapt::adapt
                      double                     growth,
                      unsigned int               degree)
     {
-      double squares = 0.;
-      for (const double indicator : indicators)
-        squares += indicator * indicator;
       const double by_number = std::min(1., std::pow(growth, -(degree / 3.)));
       return field.predicted_error > 0.
-               ? std::min(by_number, field.predicted_error / std::sqrt(squares))
+               ? std::min(by_number, field.predicted_error / norm(indicators))
                : by_number;
     }
 
@@ -102,6 +109,7 @@ namespace tetradapt::adapt
     if (const auto marker = make_marker(parameters))
       return marked_size_field(*mesh, marker->mark(cycle.indicators, *mesh), options);
     options.obtained_over_predicted = obtained_over_predicted;
+    options.reduction_power         = reduction_power;
     if (!more)
       options.tolerance = cycle.wanted_indicator_norm;
     return optimal_size_field(*mesh,
@@ -115,6 +123,8 @@ namespace tetradapt::adapt
   {
     const unsigned int           old_tets = mesh->n_cells();
     const compare::PointLocator &locator  = cycle.comparison->locator();
+    foretold_reduction                    = field.predicted_reduction;
+    foretold_from                         = norm(cycle.indicators);
     if (anew)
       {
         const mesh::EdgeTable *edges = edges_of(*cycle.solution.displacement);
@@ -134,6 +144,9 @@ namespace tetradapt::adapt
   Driver::adapt_mesh(Cycle &cycle)
   {
     SizeField field;
+    if (foretold_reduction > 0.)
+      reduction_power
+        = next_reduction_power(foretold_reduction, norm(cycle.indicators) / foretold_from);
     {
       const auto scope = timer.scope("marking");
       in_cycle(cycle.record.cycle).progress("marking and sizing");

@@ -44,6 +44,11 @@ namespace tetradapt::adapt
 
 
 
+  namespace
+  {
+    constexpr double default_growth_slack = 1.5;
+  }
+
   SizeFieldOptions
   make_size_field_options(const scene::AdaptivityParameters &parameters,
                           const scene::TetgenParameters     &tetgen,
@@ -56,9 +61,13 @@ namespace tetradapt::adapt
     // Displacements converge one power of h faster than strains.
     options.rate
       = degree + (parameters.driver == scene::AdaptivityParameters::Driver::ren ? 1. : 0.);
-    options.wanted_tets = parameters.growth * n_cells;
-    if (parameters.max_tets > 0)
-      options.wanted_tets = std::min<double>(options.wanted_tets, parameters.max_tets);
+    options.wanted_tets  = parameters.growth * n_cells;
+    options.growth_slack = default_growth_slack;
+    if (parameters.max_tets > 0 && default_growth_slack * options.wanted_tets > parameters.max_tets)
+      {
+        options.wanted_tets  = std::min<double>(options.wanted_tets, parameters.max_tets);
+        options.growth_slack = 1.;
+      }
     options.min_ratio         = parameters.min_ratio;
     options.max_ratio         = parameters.max_ratio;
     options.min_size          = parameters.min_size;
@@ -77,6 +86,16 @@ namespace tetradapt::adapt
     if (!(field.predicted_tets > 0.))
       return 0.;
     return std::clamp(field.obtained_over_predicted * obtained / field.predicted_tets, 0.5, 3.);
+  }
+
+
+
+  double
+  next_reduction_power(const double predicted, const double obtained)
+  {
+    if (!(predicted > 0.) || !(predicted < 1.) || !(obtained > 0.))
+      return 1.;
+    return std::clamp(std::log(obtained) / std::log(predicted), 0.3, 1.2);
   }
 
 
@@ -155,6 +174,20 @@ namespace tetradapt::adapt
 
 
 
+  namespace
+  {
+    /** Whether as many more tetrahedra as options.growth_slack allows may reach the goal. */
+    bool
+    is_near(const double error, const double goal, const SizeFieldOptions &options)
+    {
+      const double power = options.rate * std::max(options.reduction_power, 1.) / 3.;
+      return options.growth_slack > 1.
+             && error * std::pow(options.growth_slack, -2. * power) < goal;
+    }
+  } // namespace
+
+
+
   SizeField
   optimal_size_field(const mesh::TetMesh       &mesh,
                      const std::vector<double> &indicators,
@@ -174,18 +207,31 @@ namespace tetradapt::adapt
       own_edges = mesh::build_edges(mesh);
     SizePrediction prediction(mesh, indicators, options, edges != nullptr ? *edges : own_edges);
 
-    double log_scale = find_zero(
-      [&](const double x) {
-        prediction.set_scale(x);
-        return std::log(prediction.n_tets() / options.wanted_tets);
-      },
-      prediction.lowest(),
-      prediction.highest(),
-      prediction.guess(options.wanted_tets));
+    const auto scale_for = [&](const double n_tets, const double start) {
+      return find_zero(
+        [&](const double x) {
+          prediction.set_scale(x);
+          return std::log(prediction.n_tets() / n_tets);
+        },
+        prediction.lowest(),
+        prediction.highest(),
+        start);
+    };
+    double log_scale = scale_for(options.wanted_tets, prediction.guess(options.wanted_tets));
     prediction.set_scale(log_scale);
 
     const double goal            = options.tolerance_safety * options.tolerance;
-    const bool   tolerance_bound = prediction.error() < goal;
+    bool         tolerance_bound = prediction.error() < goal;
+    if (!tolerance_bound && is_near(prediction.error(), goal, options))
+      {
+        const double larger = scale_for(options.growth_slack * options.wanted_tets, log_scale - .1);
+        prediction.set_scale(larger);
+        tolerance_bound = prediction.error() < goal;
+        if (tolerance_bound)
+          log_scale = larger;
+        else
+          prediction.set_scale(log_scale);
+      }
     if (tolerance_bound)
       {
         const double smallest = std::min(options.wanted_tets, options.min_growth * mesh.n_cells());

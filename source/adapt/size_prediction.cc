@@ -33,6 +33,7 @@ namespace tetradapt::adapt
     double       sum     = 0.;
     for (const double e : indicators)
       sum += (e / largest) * (e / largest);
+    present_error = largest * std::sqrt(sum);
     // A cell without any error would get an infinite size. Far below the mean all
     // that matters is that it will not be refined.
     const double floor    = 1e-6 * largest * std::sqrt(sum / mesh.n_cells());
@@ -153,16 +154,25 @@ namespace tetradapt::adapt
 
 
   double
-  SizePrediction::error() const
+  SizePrediction::reduction() const
   {
     const double largest = *std::max_element(indicators.begin(), indicators.end());
-    double       sum     = 0.;
+    double       sum = 0., present = 0.;
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
       {
         const double e = indicators[c] / largest;
+        present += e * e;
         sum += e * e * std::pow(n_pieces(c), -2. * options.rate / 3.);
       }
-    return largest * std::sqrt(sum);
+    return std::sqrt(sum / present);
+  }
+
+
+
+  double
+  SizePrediction::error() const
+  {
+    return present_error * std::pow(reduction(), options.reduction_power);
   }
 
 
@@ -176,6 +186,7 @@ namespace tetradapt::adapt
 
     SizeField field;
     field.predicted_tets          = predicted_tets;
+    field.predicted_reduction     = reduction();
     field.predicted_error         = error();
     field.n_graded                = n_graded;
     field.obtained_over_predicted = factor;

@@ -37,7 +37,8 @@ namespace tetradapt::scene
       binder("Growth",
              p.growth,
              number_codec(),
-             "optimal size: tetrahedra of the next mesh over those of this one.");
+             "optimal size: tetrahedra of the next mesh over those of this one; fewer where they "
+             "reach the tolerance, and up to half as many more where these do.");
       binder("Minimum ratio",
              p.min_ratio,
              number_codec(),

@@ -190,24 +190,45 @@ tolerance()
   const double              error = std::sqrt(n);
   const std::vector<double> e(mesh.n_cells(), 1.);
   auto                      options = plain_options(8. * n);
-  // What is aimed at is 0.9 of the tolerance: two thirds of the error need 1.5^3
+  // What is aimed at is 0.95 of the tolerance: two thirds of the error need 1.5^3
   // times the cells, a quarter more than is wanted, 0.99 the smallest growth.
   for (const double part : {2. / 3., 0.25, 0.99})
     {
-      options.tolerance = part * error / 0.9;
+      options.tolerance = part * error / 0.95;
       const auto field  = adapt::optimal_size_field(mesh, e, options);
       std::cout << "to " << part << ": decided by it " << field.tolerance_bound << ", growth "
                 << close(field.predicted_tets / n,
                          part == 0.25   ? 8.
-                         : part == 0.99 ? 1.5
+                         : part == 0.99 ? 1.25
                                         : 3.375)
                 << ", error "
                 << close(field.predicted_error / error,
                          part == 0.25   ? 0.5
-                         : part == 0.99 ? std::pow(1.5, -1. / 3.)
+                         : part == 0.99 ? std::pow(1.25, -1. / 3.)
                                         : part)
                 << '\n';
     }
+  // If the last cycle's error fell with half the power that was foretold, the same
+  // needs the square of the growth: 0.8^-6 = 3.8 for 0.8; and 0.45 needs 0.45^-3 = 11 times
+  // as many where 8 are wanted, which a slack of 1.5 allows.
+  options.tolerance       = 0.8 * error / 0.95;
+  options.reduction_power = 0.5;
+  auto field              = adapt::optimal_size_field(mesh, e, options);
+  std::cout << "half the power: growth " << close(field.predicted_tets / n, std::pow(0.8, -6.))
+            << ", error " << close(field.predicted_error / error, 0.8) << ", foretold "
+            << close(field.predicted_reduction, 0.64) << '\n';
+  options.reduction_power = 1.;
+  options.tolerance       = 0.45 * error / 0.95;
+  for (const double slack : {1., 1.3, 1.5})
+    {
+      options.growth_slack = slack;
+      field                = adapt::optimal_size_field(mesh, e, options);
+      std::cout << "slack " << slack << ": decided by it " << field.tolerance_bound << ", growth "
+                << close(field.predicted_tets / n, slack < 1.4 ? 8. : std::pow(0.45, -3.)) << '\n';
+    }
+  std::cout << "power after 0.25 instead of 0.5: " << adapt::next_reduction_power(0.5, 0.25)
+            << ", 0.5 instead of 0.25: " << adapt::next_reduction_power(0.25, 0.5)
+            << ", a larger error: " << adapt::next_reduction_power(0.25, 2.) << '\n';
 }
 
 void

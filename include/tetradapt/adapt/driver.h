@@ -144,6 +144,9 @@ namespace tetradapt::adapt
     bool                 is_tested       = false;      ///< energies tell whether a mesh is better
     double               predicted_error = 0.;         ///< of this cycle, energy norm; 0: unknown
     double               obtained_over_predicted = 0.; ///< see SizeFieldOptions
+    /** What the size field of this mesh foretold of the error, and from where; 0: nothing. */
+    double foretold_reduction = 0., foretold_from = 0.;
+    double reduction_power = 1.; ///< see SizeFieldOptions
   };
 } // namespace tetradapt::adapt
 

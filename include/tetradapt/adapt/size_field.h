@@ -41,9 +41,12 @@ namespace tetradapt::adapt
     double tolerance = 0.;
     /** The prediction aims at this part of the tolerance, since a little more
      * error than predicted would cost one more cycle. */
-    double tolerance_safety = 0.9;
+    double tolerance_safety = 0.95;
     /** For the same reason, the smallest growth that a tolerance leads to. */
-    double min_growth = 1.5;
+    double min_growth = 1.25;
+    /** Times wanted_tets are taken if that reaches the tolerance, for a mesh that just
+     * misses it is followed by another one. */
+    double growth_slack = 1.;
     double min_ratio = 1. / 3., max_ratio = 2.; ///< clamps of new over old size
     double min_size = 0., max_size = 0.;        ///< 0: none
     double gradation         = 0.3;             ///< h(x) <= h(y) + g |x-y|; 0: none
@@ -55,8 +58,13 @@ namespace tetradapt::adapt
     /** Tetrahedra obtained over tetrahedra predicted; 0: what was measured for the
      * route on average. A caller that goes through several cycles can pass what
      * the last one told, next_obtained_over_predicted(). */
-    double    obtained_over_predicted = 0.;
-    NodalSize nodal_size              = NodalSize::geometric_mean;
+    double obtained_over_predicted = 0.;
+    /** The error is predicted cell by cell, as if new sizes made all cells equally good; that
+     * a mesh which is nearly so already has nothing to gain there, only the last cycle can
+     * tell. The predicted reduction of the error is raised to this power:
+     * next_reduction_power(). */
+    double    reduction_power = 1.;
+    NodalSize nodal_size      = NodalSize::geometric_mean;
   };
 
   /** Options as @p parameters say, for a solution of degree @p degree on a mesh of
@@ -74,9 +82,11 @@ namespace tetradapt::adapt
     std::vector<double> node_sizes; ///< wanted edge length, one a point
     double              predicted_tets  = 0.;
     double              predicted_error = 0.; ///< root of the sum of squared indicators
-    unsigned long       n_refined       = 0;  ///< cells whose wanted size is below their own
-    unsigned long       n_clamped       = 0;  ///< cells at min_ratio or min_size
-    unsigned long       n_graded        = 0;  ///< points whose size the gradation lowered
+    /** The same over the present error, cell by cell (before reduction_power); 0: unknown. */
+    double        predicted_reduction = 0.;
+    unsigned long n_refined           = 0; ///< cells whose wanted size is below their own
+    unsigned long n_clamped           = 0; ///< cells at min_ratio or min_size
+    unsigned long n_graded            = 0; ///< points whose size the gradation lowered
     /** The factor that predicted_tets includes. */
     double obtained_over_predicted = 1.;
     bool   tolerance_bound         = false; ///< the tolerance, not wanted_tets, decided
@@ -91,6 +101,12 @@ namespace tetradapt::adapt
    * cycle does not spoil the next. */
   double
   next_obtained_over_predicted(const SizeField &field, unsigned long obtained);
+
+  /** The power to pass as reduction_power in the next cycle, after the error became
+   * @p obtained times what it was where the size field foretold @p predicted times (its
+   * predicted_reduction): the quotient of their logarithms, within [0.3, 1.2]. */
+  double
+  next_reduction_power(double predicted, double obtained);
 
   /** Edge length of the regular tetrahedron of volume @p volume, (6 sqrt(2) V)^(1/3). */
   double

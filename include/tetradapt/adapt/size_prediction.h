@@ -55,8 +55,13 @@ namespace tetradapt::adapt
       return predicted_tets;
     }
 
-    /** Root of the sum of squared indicators on the next mesh, each cell's
-     * contribution falling with (h/h_K)^rate. */
+    /** The root of the sum of squared indicators on the next mesh over the present one,
+     * each cell's contribution falling with (h/h_K)^rate. */
+    double
+    reduction() const;
+
+    /** Root of the sum of squared indicators on the next mesh: the present one times
+     * reduction() to the power options.reduction_power. */
     double
     error() const;
 
@@ -84,9 +89,10 @@ namespace tetradapt::adapt
     Gradation                  gradation;
     double                     factor; ///< f, cells obtained over cells predicted
 
-    std::vector<double> volumes, sizes; ///< of the cells; sizes are equivalent edges
-    std::vector<double> log_ratios;     ///< log of e_K^(-2/(2p+3))
-    std::vector<double> point_volumes;  ///< of the cells around each point
+    std::vector<double> volumes, sizes;     ///< of the cells; sizes are equivalent edges
+    std::vector<double> log_ratios;         ///< log of e_K^(-2/(2p+3))
+    double              present_error = 0.; ///< root of the sum of squared indicators
+    std::vector<double> point_volumes;      ///< of the cells around each point
     double              lowest_log_scale, highest_log_scale;
 
     double              log_scale = 0.;
