@@ -2,6 +2,7 @@
 #include "tetradapt/compare/recovery.h"
 
 #include "tetradapt/compare/patch_solver.h"
+#include "tetradapt/compare/recovery_difference.h"
 #include "tetradapt/compare/stress_difference.h"
 #include "tetradapt/mesh/space_curve.h"
 
@@ -11,34 +12,18 @@ namespace tetradapt::compare
 {
   namespace
   {
-    std::vector<StressSample>
-    sample_stresses(const mesh::TetMesh &mesh, const CellStress &stress, const TetQuadrature &rule)
-    {
-      std::vector<StressSample> samples(std::size_t(mesh.n_cells()) * rule.points.size());
-      StressSample             *sample = samples.data();
-      for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
-        for (const auto &b : rule.points)
-          {
-            sample->point = position(mesh, cell, b);
-            stress.at(cell, b, sample->point, sample->stress);
-            ++sample;
-          }
-      return samples;
-    }
-
     /** Fits patch by patch, with lower degrees where the highest cannot be had. */
     template <unsigned int degree>
     class PatchFits
     {
     public:
-      PatchFits(const mesh::TetMesh             &mesh,
-                const RecoveryPatches           &patches,
-                const std::vector<StressSample> &samples,
-                const unsigned int               n_a_cell,
-                const CellMaterials             &materials,
-                const StressConditions          *conditions)
-        : patches(patches), solver(mesh, samples, n_a_cell, materials, conditions),
-          lower(mesh, patches, samples, n_a_cell, materials, conditions)
+      PatchFits(const mesh::TetMesh    &mesh,
+                const RecoveryPatches  &patches,
+                const StressSamples    &samples,
+                const CellMaterials    &materials,
+                const StressConditions *conditions)
+        : patches(patches), solver(mesh, samples, materials, conditions),
+          lower(mesh, patches, samples, materials, conditions)
       {
       }
 
@@ -67,13 +52,12 @@ namespace tetradapt::compare
     class PatchFits<0>
     {
     public:
-      PatchFits(const mesh::TetMesh             &mesh,
-                const RecoveryPatches           &patches,
-                const std::vector<StressSample> &samples,
-                const unsigned int               n_a_cell,
-                const CellMaterials             &materials,
-                const StressConditions          *conditions)
-        : patches(patches), solver(mesh, samples, n_a_cell, materials, conditions)
+      PatchFits(const mesh::TetMesh    &mesh,
+                const RecoveryPatches  &patches,
+                const StressSamples    &samples,
+                const CellMaterials    &materials,
+                const StressConditions *conditions)
+        : patches(patches), solver(mesh, samples, materials, conditions)
       {
       }
 
@@ -114,9 +98,9 @@ namespace tetradapt::compare
     {
       constexpr unsigned int n_numbers = 1 + 6 * n_monomials[degree];
       const TetQuadrature   &rule      = tet_quadrature(degree);
-      const auto             samples   = sample_stresses(mesh, stress, rule);
-      const auto             fits      = std::make_unique<PatchFits<degree>>(
-        mesh, patches, samples, rule.points.size(), stress.materials(), conditions);
+      const StressSamples    samples(mesh, stress, rule);
+      const auto             fits = std::make_unique<PatchFits<degree>>(
+        mesh, patches, samples, stress.materials(), conditions);
       const Slice               slice = own_slice(patches.size(), communicator);
       std::vector<double>       result(std::size_t(patches.size()) * n_numbers, 0.);
       std::vector<unsigned int> cells;
@@ -141,84 +125,6 @@ namespace tetradapt::compare
     });
     gather_slices(polynomials, patches.size(), polynomials.size() / patches.size(), communicator);
   }
-
-  namespace
-  {
-    using PointBlock = RecoveredStress::PointBlock;
-
-    /** Minus the stress of the solution, which is linear at most, at the points of a block,
-     * whose positions it sets. */
-    TETRADAPT_INLINE void
-    begin_block(const mesh::TetMesh &mesh,
-                const CellStress    &stress,
-                const unsigned int   cell,
-                PointBlock          &block)
-    {
-      const auto &corners = mesh.cells[cell];
-      for (unsigned int d = 0; d < 3; ++d)
-        for (unsigned int q = 0; q < PointBlock::size; ++q)
-          {
-            double sum = 0.;
-            for (unsigned int i = 0; i < 4; ++i)
-              sum += block.barycentric[i][q] * mesh.points[corners[i]][d];
-            block.position[d][q] = sum;
-          }
-      double at_corners[4][6];
-      for (unsigned int i = 0; i < 4; ++i)
-        {
-          mesh::Barycentric b{{0., 0., 0., 0.}};
-          b[i] = 1.;
-          stress.at(cell, b, mesh.points[corners[i]], at_corners[i]);
-        }
-      for (unsigned int c = 0; c < 6; ++c)
-        for (unsigned int q = 0; q < PointBlock::size; ++q)
-          {
-            double sum = 0.;
-            for (unsigned int i = 0; i < 4; ++i)
-              sum -= block.barycentric[i][q] * at_corners[i][c];
-            block.stress[c][q] = sum;
-          }
-    }
-
-    TETRADAPT_INLINE double
-    complementary_energy(const ElasticMatrices     &matrices,
-                         const std::vector<double> &weights,
-                         const PointBlock          &block)
-    {
-      PointBlock::Lanes density{};
-      for (unsigned int a = 0; a < 6; ++a)
-        for (unsigned int b = 0; b < 6; ++b)
-          for (unsigned int q = 0; q < PointBlock::size; ++q)
-            density[q] += matrices.compliance[a][b] * block.stress[a][q] * block.stress[b][q];
-      double sum = 0.;
-      for (unsigned int q = 0; q < weights.size(); ++q)
-        sum += weights[q] * density[q];
-      return sum;
-    }
-
-    /** stress_difference() for the recovered stress without thermal strain, all points of
-     * a cell at once. */
-    TETRADAPT_CLONES void
-    set_differences(const mesh::TetMesh   &mesh,
-                    const CellStress      &stress,
-                    const RecoveredStress &recovered,
-                    const TetQuadrature   &rule,
-                    const Slice            cells,
-                    std::vector<double>   &result)
-    {
-      PointBlock block;
-      for (unsigned int q = 0; q < PointBlock::size; ++q)
-        for (unsigned int i = 0; i < 4; ++i)
-          block.barycentric[i][q] = rule.points[q < rule.points.size() ? q : 0][i];
-      for (unsigned int cell = cells.begin; cell < cells.end; ++cell)
-        {
-          begin_block(mesh, stress, cell, block);
-          recovered.add_at(cell, block);
-          const double energy = complementary_energy(stress.materials()[cell], rule.weights, block);
-          result[cell]        = std::sqrt(std::max(energy, 0.) * mesh::cell_volume(mesh, cell));
-        }
-    }
-  } // namespace
 
   RecoveryEstimate
   recovery_estimate(const mesh::NodalField       &u_h,
@@ -247,12 +153,10 @@ namespace tetradapt::compare
       {
         result.cell_energy.assign(n_cells, 0.);
         together(communicator, [&] {
-          set_differences(u_h.mesh(),
-                          stress,
-                          recovered,
-                          rule,
-                          own_slice(n_cells, communicator),
-                          result.cell_energy);
+          const RecoveryDifference difference(u_h.mesh(), stress, recovered, rule);
+          const Slice              slice = own_slice(n_cells, communicator);
+          for (unsigned int cell = slice.begin; cell < slice.end; ++cell)
+            result.cell_energy[cell] = difference(cell);
         });
         gather_slices(result.cell_energy, n_cells, 1, communicator);
       }

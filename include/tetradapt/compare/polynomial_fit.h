@@ -12,12 +12,13 @@ namespace tetradapt::compare
   /** Numbers of monomials in three variables up to degree 0, 1 and 2. */
   constexpr unsigned int n_monomials[3] = {1, 4, 10};
 
-  /** 1, x, y, z, x^2, y^2, z^2, xy, yz, zx up to degree @p degree (at most 2). */
-  template <unsigned int degree>
+  /** 1, x, y, z, x^2, y^2, z^2, xy, yz, zx up to degree @p degree (at most 2).
+   * @tparam Number double, or several numbers together (core::Lanes). */
+  template <unsigned int degree, typename Number>
   TETRADAPT_INLINE void
-  monomials(const double x, const double y, const double z, double *m)
+  monomials(const Number x, const Number y, const Number z, Number *m)
   {
-    m[0] = 1.;
+    m[0] = Number{} + 1.;
     if (degree >= 1)
       {
         m[1] = x;
@@ -98,41 +99,6 @@ namespace tetradapt::compare
     for (unsigned int i = 0; i < n; ++i)
       x[i] *= scale[i];
   }
-
-  /**
-   * The normal equations of a least-squares fit of six functions at once (the
-   * components of a stress) by polynomials in three variables. Coordinates should be
-   * of order one.
-   */
-  template <unsigned int degree>
-  struct PolynomialFit
-  {
-    static constexpr unsigned int n = n_monomials[degree];
-
-    void
-    clear()
-    {
-      std::fill(&moments[0][0], &moments[0][0] + n * n, 0.);
-      std::fill(&right[0][0], &right[0][0] + 6 * n, 0.);
-    }
-
-    /** Adds a point with its six values. */
-    TETRADAPT_INLINE void
-    add(const double x, const double y, const double z, const double *values)
-    {
-      double m[n];
-      monomials<degree>(x, y, z, m);
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; j < n; ++j) // all of it: the compiler vectorises this
-          moments[i][j] += m[i] * m[j];
-      for (unsigned int c = 0; c < 6; ++c)
-        for (unsigned int i = 0; i < n; ++i)
-          right[c][i] += values[c] * m[i];
-    }
-
-    double moments[n][n];
-    double right[6][n];
-  };
 } // namespace tetradapt::compare
 
 #endif

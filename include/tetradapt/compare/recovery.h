@@ -54,26 +54,19 @@ namespace tetradapt::compare
           add_polynomial<2>(patches.of_cell[cell][i], mesh.cells[cell][i], b[i], point, stress);
     }
 
-    /** Points of one cell, a lane of the processor's vectors each, and six stresses there. */
-    struct PointBlock
+    /** Of the polynomials: 1 or 2. */
+    unsigned int
+    degree() const
     {
-      static constexpr unsigned int size = 16;
-      using Lanes                        = std::array<double, size>;
+      return linear ? 1 : 2;
+    }
 
-      std::array<Lanes, 4> barycentric;
-      std::array<Lanes, 3> position;
-      std::array<Lanes, 6> stress;
-    };
-
-    /** Adds the recovered stress at the points of a block. */
-    TETRADAPT_INLINE void
-    add_at(const unsigned int cell, PointBlock &block) const
+    /** A patch's polynomial: its unit of length L, then the coefficients of the monomials (see
+     * monomials()) in (x - vertex) / L, six stresses each. */
+    const double *
+    polynomial(const unsigned int patch) const
     {
-      for (unsigned int i = 0; i < 4; ++i)
-        if (linear)
-          add_polynomial<1>(patches.of_cell[cell][i], mesh.cells[cell][i], i, block);
-        else
-          add_polynomial<2>(patches.of_cell[cell][i], mesh.cells[cell][i], i, block);
+      return &polynomials[std::size_t(patch) * (1 + 6 * n_monomials[degree()])];
     }
 
     /** The patches of the vertices of @p cell. */
@@ -92,7 +85,7 @@ namespace tetradapt::compare
     highest_derivatives(const unsigned int patch, double (*result)[6]) const
     {
       const unsigned int begin = linear ? 1 : 4, end = linear ? 4 : 10;
-      const double      *polynomial = &polynomials[std::size_t(patch) * (1 + 6 * end)];
+      const double      *polynomial = this->polynomial(patch);
       for (unsigned int k = begin; k < end; ++k)
         {
           const double factor
@@ -113,7 +106,7 @@ namespace tetradapt::compare
                    double            *stress) const
     {
       constexpr unsigned int n          = n_monomials[degree];
-      const double          *polynomial = &polynomials[std::size_t(patch) * (1 + 6 * n)];
+      const double          *polynomial = this->polynomial(patch);
       const double           scale      = 1. / polynomial[0];
       const Point<3>        &center     = mesh.points[vertex];
       double                 m[n];
@@ -126,43 +119,6 @@ namespace tetradapt::compare
           const double weight = factor * m[k];
           for (unsigned int c = 0; c < 6; ++c)
             stress[c] += weight * polynomial[1 + 6 * k + c];
-        }
-    }
-
-    /** Adds corner @p i's barycentric coordinates times its patch's polynomial. */
-    template <unsigned int degree>
-    TETRADAPT_INLINE void
-    add_polynomial(const unsigned int patch,
-                   const unsigned int vertex,
-                   const unsigned int i,
-                   PointBlock        &block) const
-    {
-      constexpr unsigned int n          = n_monomials[degree];
-      constexpr unsigned int size       = PointBlock::size;
-      const double          *polynomial = &polynomials[std::size_t(patch) * (1 + 6 * n)];
-      const double           scale      = 1. / polynomial[0];
-      const Point<3>        &center     = mesh.points[vertex];
-      PointBlock::Lanes      m[n];
-      for (unsigned int q = 0; q < size; ++q)
-        {
-          double values[n];
-          monomials<degree>(scale * (block.position[0][q] - center[0]),
-                            scale * (block.position[1][q] - center[1]),
-                            scale * (block.position[2][q] - center[2]),
-                            values);
-          for (unsigned int k = 0; k < n; ++k)
-            m[k][q] = block.barycentric[i][q] * values[k];
-        }
-      for (unsigned int c = 0; c < 6; ++c)
-        {
-          PointBlock::Lanes sum = block.stress[c];
-          for (unsigned int k = 0; k < n; ++k)
-            {
-              const double coefficient = polynomial[1 + 6 * k + c];
-              for (unsigned int q = 0; q < size; ++q)
-                sum[q] += coefficient * m[k][q];
-            }
-          block.stress[c] = sum;
         }
     }
 
