@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/compare/patch_solver.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace tetradapt::compare
 {
   void
@@ -9,7 +12,7 @@ namespace tetradapt::compare
     n_a_cell  = samples.n_a_cell();
     n_samples = cells.size() * n_a_cell;
     n_batches = (n_samples + core::n_lanes - 1) / core::n_lanes;
-    rows.resize(std::size_t(StressSamples::n_numbers) * n_batches * core::n_lanes);
+    rows.resize_fast(std::size_t(StressSamples::n_numbers) * n_batches * core::n_lanes);
     begin                    = rows.data();
     const std::size_t stride = std::size_t(n_batches) * core::n_lanes;
     const auto        copy   = [&](const auto n) {
@@ -48,6 +51,15 @@ namespace tetradapt::compare
     solve_system(PatchSystem<2> &system, PatchSystem<2>::Input &input)
     {
       return system.solve(input);
+    }
+    /** Whether two 6 x 6 matrices of StressConditions::Face are that of one plane. */
+    bool
+    equal_but_for_rounding(const double *a, const double *b)
+    {
+      constexpr double rounding = 1e-12 * StressConditions::boundary_weight;
+      return std::equal(a, a + 36, b, [](const double x, const double y) {
+        return std::abs(x - y) <= rounding;
+      });
     }
   } // namespace
 
@@ -88,17 +100,33 @@ namespace tetradapt::compare
     input.on_boundary = conditions->on_boundary[vertex] != 0;
     faces.clear();
     if (input.on_boundary)
-      for (const unsigned int cell : cells)
-        for (unsigned int f = conditions->begin[cell]; f < conditions->begin[cell + 1]; ++f)
-          {
-            const auto   &face   = conditions->faces[f];
-            const double *matrix = &face.matrix[0][0];
-            const bool    begins
-              = faces.empty() || !std::equal(matrix, matrix + 36, faces.back().matrix);
-            faces.push_back({matrix, &face.points[0][0], face.right, face.n_points, begins});
-          }
+      gather_faces(cells);
     input.faces   = faces.data();
     input.n_faces = faces.size();
+  }
+
+  template <unsigned int degree>
+  void
+  PatchSolver<degree>::gather_faces(const std::vector<unsigned int> &cells)
+  {
+    planes.clear();
+    for (const unsigned int cell : cells)
+      for (unsigned int f = conditions->begin[cell]; f < conditions->begin[cell + 1]; ++f)
+        {
+          const auto   &face   = conditions->faces[f];
+          const double *matrix = &face.matrix[0][0];
+          const auto    plane  = std::find_if(planes.begin(), planes.end(), [&](const double *m) {
+            return equal_but_for_rounding(matrix, m);
+          });
+          const unsigned int number = plane - planes.begin();
+          if (plane == planes.end())
+            planes.push_back(matrix);
+          faces.push_back({planes[number], &face.points[0][0], face.right, face.n_points, number});
+        }
+    if (planes.size() > 1)
+      std::stable_sort(faces.begin(), faces.end(), [](const auto &a, const auto &b) {
+        return a.plane < b.plane;
+      });
   }
 
   template <unsigned int degree>

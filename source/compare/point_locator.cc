@@ -7,6 +7,8 @@
 #include "tetradapt/mesh/face_table.h"
 #include "tetradapt/mesh/space_curve.h"
 
+#include <boost/container/small_vector.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -168,7 +170,7 @@ namespace tetradapt::compare
         return true;
       }
     best = -std::numeric_limits<double>::max();
-    std::vector<unsigned int> queue{start}, seen{start};
+    boost::container::small_vector<unsigned int, 64> queue{start}, seen{start};
     for (std::size_t i = 0; i < queue.size(); ++i)
       {
         const WalkCell         &cell = cells[queue[i]];
@@ -177,6 +179,8 @@ namespace tetradapt::compare
         bool                    inside = true;
         for (unsigned int f = 0; f < 4; ++f)
           {
+            if (b[f] > cell.margin)
+              continue; // farther inside than the tolerance
             const double distance = b[f] * cell.height(f);
             inside                = inside && distance >= -tolerance;
             on_face[f]            = distance <= tolerance;

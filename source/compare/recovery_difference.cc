@@ -27,7 +27,7 @@ namespace tetradapt::compare
       for (unsigned int j = 0; j < 4; ++j)
         for (unsigned int d = 0; d < 3; ++d)
           edges[j][d] = scale * (cell.corners[j][d] - cell.corners[i][d]);
-      Lanes m[n_vectors][n];
+      alignas(64) Lanes m[n_vectors][n];
       for (unsigned int v = 0; v < n_vectors; ++v)
         {
           Lanes x[3];
@@ -50,7 +50,7 @@ namespace tetradapt::compare
     TETRADAPT_INLINE double
     mean_density_of(const RecoveryDifference::Cell &cell, const RecoveryDifference::Rule &rule)
     {
-      Lanes difference[6][n_vectors];
+      alignas(64) Lanes difference[6][n_vectors];
       for (unsigned int c = 0; c < 6; ++c)
         for (unsigned int v = 0; v < n_vectors; ++v)
           difference[c][v] = -(rule.barycentric[0][v] * cell.stress[0][c]

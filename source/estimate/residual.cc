@@ -90,8 +90,11 @@ namespace tetradapt::estimate
     public:
       ResidualTerms(const mesh::NodalField &u_h, const CellStress &stress, const GivenLoads &loads)
         : mesh(u_h.mesh()), degree(u_h.degree()), stress(stress), loads(loads),
-          constant(1. / (24. * u_h.degree())), squares(u_h.mesh().n_cells(), 0.)
+          constant(1. / (24. * u_h.degree())), squares(u_h.mesh().n_cells(), 0.),
+          volumes(u_h.mesh().n_cells())
       {
+        for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
+          volumes[cell] = mesh::cell_volume(mesh, cell);
       }
 
       /** constant h_K^2 / mu int_K |f + div s_h|^2. */
@@ -99,15 +102,16 @@ namespace tetradapt::estimate
       add_inside(const unsigned int cell)
       {
         const Tensor<1, 3> divergence = stress_divergence(cell);
-        const auto        &rule       = compare::tet_quadrature(2);
-        const double       volume     = mesh::cell_volume(mesh, cell);
-        double             sum        = 0.;
-        for (unsigned int q = 0; q < rule.points.size(); ++q)
+        const double       volume     = volumes[cell];
+        double             sum        = loads.has_body_force() ? 0. : divergence.norm_square();
+        if (loads.has_body_force())
           {
-            Tensor<1, 3> r = divergence;
-            if (loads.has_body_force())
-              r += loads.body_force(cell, compare::position(mesh, cell, rule.points[q]));
-            sum += rule.weights[q] * r.norm_square();
+            const auto &rule = compare::tet_quadrature(2);
+            for (unsigned int q = 0; q < rule.points.size(); ++q)
+              sum += rule.weights[q]
+                     * (divergence
+                        + loads.body_force(cell, compare::position(mesh, cell, rule.points[q])))
+                         .norm_square();
           }
         double area = 0.;
         for (const auto &v : mesh::face_vertices)
@@ -138,8 +142,7 @@ namespace tetradapt::estimate
               missing -= trace(materials.thermal_strain(region, compare::position(mesh, cell, b)));
             sum += rule.weights[q] * missing * missing;
           }
-        squares[cell]
-          += mesh::cell_volume(mesh, cell) * sum / (0.5 / form.shear_modulus + form.inverse_lambda);
+        squares[cell] += volumes[cell] * sum / (0.5 / form.shear_modulus + form.inverse_lambda);
       }
 
       /** The face @p local of @p cell, between it and @p neighbor. */
@@ -148,29 +151,43 @@ namespace tetradapt::estimate
                         const unsigned int local,
                         const unsigned int neighbor)
       {
-        const FacePlace place   = face_place(cell, local);
-        double          Q[3][3] = {};
-        add_acoustic_tensor(0.5, stress.materials()[cell], place.normal, Q);
-        add_acoustic_tensor(0.5, stress.materials()[neighbor], place.normal, Q);
+        const auto  &v      = mesh::face_vertices[local];
+        Tensor<1, 3> normal = area_vector(cell, v);
+        normal /= normal.norm();
+        double                 Q[3][3] = {};
+        const ElasticMatrices &mine    = stress.materials()[cell],
+                              &other   = stress.materials()[neighbor];
+        add_acoustic_tensor(&mine == &other ? 1. : 0.5, mine, normal, Q);
+        if (&mine != &other)
+          add_acoustic_tensor(0.5, other, normal, Q);
         const InverseNorm norm(Q);
-        const bool        varies = degree == 2 || stress.has_thermal_strain();
-        double            sum    = 0.;
-        for (unsigned int q = 0; q < (varies ? 3 : 1); ++q)
+        double            sum = 0.;
+        if (stress.has_thermal_strain())
           {
-            double mine[6], other[6];
-            stress.at(cell, place.barycentric[q], place.points[q], mine);
-            stress.at(neighbor,
-                      varies ? mesh::barycentric_coordinates(mesh, neighbor, place.points[q])
-                             : place.barycentric[q], // a constant stress does not ask
-                      place.points[q],
-                      other);
-            for (unsigned int c = 0; c < 6; ++c)
-              mine[c] -= other[c];
-            sum += norm.square(traction(mine, place.normal)) / (varies ? 3. : 1.);
+            const FacePlace place = face_place(cell, local);
+            for (unsigned int q = 0; q < 3; ++q)
+              sum += norm.square(jump_at(cell, neighbor, place, q)) / 3.;
+          }
+        else if (degree == 1)
+          sum = norm.square(jump_between(stress.elastic(cell), stress.elastic(neighbor), normal));
+        else
+          {
+            // Linear: at a point of the rule, half the sum at the corners and half the corner's.
+            Tensor<1, 3> at_corners[3], half;
+            for (unsigned int i = 0; i < 3; ++i)
+              {
+                at_corners[i] = jump_between(stress.elastic(cell) + 6 * v[i],
+                                             stress.elastic(neighbor)
+                                               + 6 * local_number(neighbor, mesh.cells[cell][v[i]]),
+                                             normal);
+                half += at_corners[i] / 6.;
+              }
+            for (const Tensor<1, 3> &corner : at_corners)
+              sum += norm.square(half + 0.5 * corner) / 3.;
           }
         // Heights 3 V / area, times the area.
-        squares[cell] += constant * 3. * mesh::cell_volume(mesh, cell) * sum;
-        squares[neighbor] += constant * 3. * mesh::cell_volume(mesh, neighbor) * sum;
+        squares[cell] += constant * 3. * volumes[cell] * sum;
+        squares[neighbor] += constant * 3. * volumes[neighbor] * sum;
       }
 
       /** The face @p local of @p cell, listed as boundary face @p face. */
@@ -197,7 +214,7 @@ namespace tetradapt::estimate
                 missing[c] = 0.;
             sum += norm.square(missing) / 3.;
           }
-        squares[cell] += 2. * constant * 3. * mesh::cell_volume(mesh, cell) * sum;
+        squares[cell] += 2. * constant * 3. * volumes[cell] * sum;
       }
 
       std::vector<double> &
@@ -214,6 +231,41 @@ namespace tetradapt::estimate
         mesh::Barycentric barycentric[3];
         Point<3>          points[3];
       };
+
+      /** Which vertex of @p cell point @p vertex is. */
+      unsigned int
+      local_number(const unsigned int cell, const unsigned int vertex) const
+      {
+        unsigned int i = 0;
+        while (mesh.cells[cell][i] != vertex)
+          ++i;
+        return i;
+      }
+
+      static Tensor<1, 3>
+      jump_between(const double *mine, const double *other, const Tensor<1, 3> &normal)
+      {
+        double jump[6];
+        for (unsigned int c = 0; c < 6; ++c)
+          jump[c] = mine[c] - other[c];
+        return traction(jump, normal);
+      }
+
+      /** The jump of the traction at point @p q of a face, stresses of any form. */
+      Tensor<1, 3>
+      jump_at(const unsigned int cell,
+              const unsigned int neighbor,
+              const FacePlace   &place,
+              const unsigned int q) const
+      {
+        double mine[6], other[6];
+        stress.at(cell, place.barycentric[q], place.points[q], mine);
+        stress.at(neighbor,
+                  mesh::barycentric_coordinates(mesh, neighbor, place.points[q]),
+                  place.points[q],
+                  other);
+        return jump_between(mine, other, place.normal);
+      }
 
       Tensor<1, 3>
       area_vector(const unsigned int cell, const std::array<unsigned int, 3> &v) const
@@ -265,7 +317,7 @@ namespace tetradapt::estimate
       const CellStress    &stress;
       const GivenLoads    &loads;
       double               constant;
-      std::vector<double>  squares;
+      std::vector<double>  squares, volumes; ///< one a cell
     };
   } // namespace
 

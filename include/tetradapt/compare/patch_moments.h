@@ -6,6 +6,8 @@
 #include "tetradapt/compare/polynomial_fit.h"
 #include "tetradapt/compare/stress_samples.h"
 
+#include <deal.II/base/aligned_vector.h>
+
 namespace tetradapt::compare
 {
   /** The samples of the cells of a patch, copied side by side: coordinates and stresses. */
@@ -34,8 +36,8 @@ namespace tetradapt::compare
     }
 
   private:
-    std::vector<double> rows;
-    double             *begin = nullptr; ///< of rows
+    dealii::AlignedVector<double> rows;
+    double                       *begin = nullptr; ///< of rows
   };
 
   /**
@@ -56,12 +58,12 @@ namespace tetradapt::compare
     collect(PatchSamples &samples, const double *center)
     {
       set_center(samples, center);
-      core::Lanes sums[n_groups * core::n_lanes];
+      alignas(64) core::Lanes sums[n_groups * core::n_lanes];
       for (unsigned int i = 0; i < n_groups * core::n_lanes; ++i)
         sums[i] = core::Lanes{};
       for (unsigned int begin = 0; begin < samples.n_batches; begin += block)
         add_block(samples, begin, sums);
-      core::Lanes totals[n_groups];
+      alignas(64) core::Lanes totals[n_groups];
       for (unsigned int g = 0; g < n_groups; ++g)
         totals[g] = sums_of_lanes(sums + core::n_lanes * g);
       const auto *total = reinterpret_cast<const double *>(totals);
@@ -118,8 +120,8 @@ namespace tetradapt::compare
     TETRADAPT_INLINE void
     add_block(PatchSamples &samples, const unsigned int begin, core::Lanes *sum)
     {
-      core::Lanes        m[n][block];
-      const unsigned int size
+      alignas(64) core::Lanes m[n][block];
+      const unsigned int      size
         = samples.n_batches - begin < block ? samples.n_batches - begin : block;
       for (unsigned int b = 0; b < size; ++b)
         {

@@ -51,6 +51,9 @@ namespace tetradapt::compare
   private:
     void
     gather_conditions(unsigned int vertex, const std::vector<unsigned int> &cells);
+    /** Faces of one plane after each other. */
+    void
+    gather_faces(const std::vector<unsigned int> &cells);
 
     const mesh::TetMesh    &mesh;
     const StressSamples    &samples;
@@ -60,6 +63,7 @@ namespace tetradapt::compare
     typename PatchSystem<degree>::Input             input;
     PatchSystem<degree>                             system;
     std::vector<typename PatchSystem<degree>::Face> faces;  ///< of the patch
+    std::vector<const double *>                     planes; ///< the different matrices of faces
     std::vector<double>                             forces; ///< of the patch, three a cell
     const ElasticMatrices                          *elastic = nullptr; ///< of input's metric
   };

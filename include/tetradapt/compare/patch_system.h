@@ -24,7 +24,7 @@ namespace tetradapt::compare
       const double *points;     ///< three numbers each
       const double (*right)[6]; ///< at each point
       unsigned int n_points;
-      bool         begins; ///< a matrix that is not the last face's
+      unsigned int plane; ///< its number in the patch; faces are sorted by it
     };
 
     /** What is given. */
@@ -132,7 +132,7 @@ namespace tetradapt::compare
     {
       for (unsigned int a = 0; a < 6; ++a)
         {
-          Lanes sums[n_vectors];
+          alignas(64) Lanes sums[n_vectors];
           for (unsigned int v = 0; v < n_vectors; ++v)
             sums[v] = Lanes{};
           for (unsigned int k = 0; k < n; ++k)
@@ -159,8 +159,8 @@ namespace tetradapt::compare
     TETRADAPT_INLINE bool
     correct_right(const Input &input)
     {
-      Inner inner;
-      Lanes inverse_weights[n_lower][1];
+      Inner             inner;
+      alignas(64) Lanes inverse_weights[n_lower][1];
       inner.clear();
       for (unsigned int i = 0; i < n_lower; ++i)
         for (unsigned int j = 0; j < n_lower; ++j)
@@ -169,7 +169,7 @@ namespace tetradapt::compare
         return false; // cells in a plane: the fit to the samples is all there is
       inner.invert(inverse_weights);
 
-      Lanes multiplier_lanes[Schur::n_vectors];
+      alignas(64) Lanes multiplier_lanes[Schur::n_vectors];
       for (unsigned int v = 0; v < Schur::n_vectors; ++v)
         multiplier_lanes[v] = Lanes{};
       auto *multipliers = reinterpret_cast<double *>(multiplier_lanes);
@@ -248,14 +248,19 @@ namespace tetradapt::compare
       matrix.clear();
       for (unsigned int v = 0; v < All::n_vectors; ++v)
         right[v] = Lanes{};
-      auto *sides = reinterpret_cast<double *>(right);
-      add_matrix(&input.metric[0][0], fit.moments);
+      auto    *sides = reinterpret_cast<double *>(right);
+      Products products;
+      begin_matrix(products, &input.metric[0][0]);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          reinterpret_cast<double *>(products.of_monomials[0][i])[j] = fit.moments[i][j];
       for (unsigned int b = 0; b < 6; ++b)
         for (unsigned int a = 0; a < 6; ++a)
           if (input.metric[a][b] != 0.)
             for (unsigned int i = 0; i < n; ++i)
               sides[n * a + i] += input.metric[a][b] * fit.right[b][i];
-      add_faces(input);
+      add_faces(input, products);
+      add_products(products);
       add_equilibrium();
       if (!matrix.factorize(1e-3 * determined))
         return false;
@@ -266,54 +271,91 @@ namespace tetradapt::compare
       return true;
     }
 
-    /** Adds a matrix between components times one between monomials. */
+    /** Matrices between components and, for each, one between monomials, to be multiplied. */
+    struct Products
+    {
+      static constexpr unsigned int capacity = 8;
+
+      alignas(64) Lanes of_monomials[capacity][n][n_vectors];
+      const double *of_components[capacity];
+      unsigned int  size = 0;
+    };
+
+    /** Adds the products to the matrix for all coefficients and forgets them. */
     TETRADAPT_INLINE void
-    add_matrix(const double *of_components, const double (&of_monomials)[n][n])
+    add_products(Products &products)
     {
       for (unsigned int b = 0; b < 6; ++b)
         for (unsigned int a = b; a < 6; ++a)
-          if (const double f = of_components[6 * a + b]; f != 0.)
-            for (unsigned int j = 0; j < n; ++j)
-              {
-                double *column = matrix.column(n * b + j) + n * a;
-                for (unsigned int i = 0; i < n; ++i)
-                  column[i] += f * of_monomials[j][i];
-              }
+          for (unsigned int j = 0; j < n; ++j)
+            {
+              alignas(64) Lanes sums[n_vectors];
+              for (unsigned int v = 0; v < n_vectors; ++v)
+                sums[v] = Lanes{};
+              for (unsigned int p = 0; p < products.size; ++p)
+                for (unsigned int v = 0; v < n_vectors; ++v)
+                  sums[v] += products.of_components[p][6 * a + b] * products.of_monomials[p][j][v];
+              double *column = matrix.column(n * b + j) + n * a;
+              for (unsigned int v = 0; v < n_vectors; ++v)
+                for (unsigned int l = 0; l < core::n_lanes && core::n_lanes * v + l < n; ++l)
+                  column[core::n_lanes * v + l] += sums[v][l];
+            }
+      products.size = 0;
     }
 
+    /** Makes room for the monomials' products of a matrix between components. */
     TETRADAPT_INLINE void
-    add_faces(const Input &input)
+    begin_matrix(Products &products, const double *of_components)
     {
-      // Faces in one plane and with the same conditions have the same matrix: what is common
-      // to the components is summed up first.
-      double products[n][n] = {};
-      auto  *sides          = reinterpret_cast<double *>(right);
+      if (products.size == Products::capacity)
+        add_products(products);
+      products.of_components[products.size] = of_components;
+      clear(products.of_monomials[products.size]);
+      ++products.size;
+    }
+
+    /** Faces in one plane and with the same conditions have the same matrix: what is common
+     * to the components is summed up first. Monomials fill whole vectors. */
+    TETRADAPT_INLINE void
+    add_faces(const Input &input, Products &products)
+    {
+      alignas(64) Lanes sums[6][n_vectors];
+      clear(sums);
       for (const Face *face = input.faces; face != input.faces + input.n_faces; ++face)
         {
-          if (face->begins && face != input.faces)
-            {
-              add_matrix((face - 1)->matrix, products);
-              for (unsigned int i = 0; i < n; ++i)
-                for (unsigned int j = 0; j < n; ++j)
-                  products[i][j] = 0.;
-            }
+          if (face == input.faces || face->plane != (face - 1)->plane)
+            begin_matrix(products, face->matrix);
+          auto &squares = products.of_monomials[products.size - 1];
           for (unsigned int q = 0; q < face->n_points; ++q)
             {
-              double m[n];
+              alignas(64) double m[n_vectors * core::n_lanes] = {};
               monomials<degree>(fit.scale * (face->points[3 * q] - input.center[0]),
                                 fit.scale * (face->points[3 * q + 1] - input.center[1]),
                                 fit.scale * (face->points[3 * q + 2] - input.center[2]),
                                 m);
-              for (unsigned int i = 0; i < n; ++i)
-                for (unsigned int j = 0; j < n; ++j)
-                  products[i][j] += m[i] * m[j];
-              for (unsigned int a = 0; a < 6; ++a)
-                for (unsigned int i = 0; i < n; ++i)
-                  sides[n * a + i] += face->right[q][a] * m[i];
+              const auto *rows = reinterpret_cast<const Lanes *>(m);
+              for (unsigned int v = 0; v < n_vectors; ++v)
+                {
+                  for (unsigned int i = 0; i < n; ++i)
+                    squares[i][v] += m[i] * rows[v];
+                  for (unsigned int a = 0; a < 6; ++a)
+                    sums[a][v] += face->right[q][a] * rows[v];
+                }
             }
         }
-      if (input.n_faces > 0)
-        add_matrix(input.faces[input.n_faces - 1].matrix, products);
+      auto *sides = reinterpret_cast<double *>(right);
+      for (unsigned int a = 0; a < 6; ++a)
+        for (unsigned int i = 0; i < n; ++i)
+          sides[n * a + i] += reinterpret_cast<const double *>(sums[a])[i];
+    }
+
+    template <unsigned int size>
+    TETRADAPT_INLINE static void
+    clear(Lanes (&rows)[size][n_vectors])
+    {
+      for (unsigned int i = 0; i < size; ++i)
+        for (unsigned int v = 0; v < n_vectors; ++v)
+          rows[i][v] = Lanes{};
     }
 
     TETRADAPT_INLINE void
@@ -336,12 +378,12 @@ namespace tetradapt::compare
             }
     }
 
-    LaneCholesky<n> factor;                    ///< of the moments
-    Lanes           inverse[n][n_vectors];     ///< of the moments
-    double          weights[n_lower][n_lower]; ///< of the residual of equilibrium
-    double          targets[3][n_lower];       ///< weights times -f length, as a polynomial
-    All             matrix;                    ///< for all coefficients together
-    Lanes           right[All::n_vectors];
+    LaneCholesky<n> factor;                  ///< of the moments
+    alignas(64) Lanes inverse[n][n_vectors]; ///< of the moments
+    double weights[n_lower][n_lower];        ///< of the residual of equilibrium
+    double targets[3][n_lower];              ///< weights times -f length, as a polynomial
+    All    matrix;                           ///< for all coefficients together
+    alignas(64) Lanes right[All::n_vectors];
   };
 } // namespace tetradapt::compare
 

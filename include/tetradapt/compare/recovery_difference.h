@@ -35,8 +35,8 @@ namespace tetradapt::compare
     /** The rule, filled up with points of no weight. */
     struct Rule
     {
-      core::Lanes barycentric[4][n_vectors];
-      core::Lanes weights[n_vectors];
+      alignas(64) core::Lanes barycentric[4][n_vectors];
+      alignas(64) core::Lanes weights[n_vectors];
     };
 
     /** A cell in plain numbers. */
