@@ -159,8 +159,9 @@ namespace tetradapt::mesh
     {
       std::vector<PiecewiseLinearComplex::Region> result;
       const Index                                 end{{grid.size(0), grid.size(1), grid.size(2)}};
-      std::vector<bool> seen(std::size_t(end[0]) * end[1] * end[2], false);
-      const auto        number = [&](const Index &i) {
+      const std::size_t                           n_blocks = std::size_t(end[0]) * end[1] * end[2];
+      std::vector<bool>                           seen(n_blocks, false);
+      const auto                                  number = [&](const Index &i) {
         return i[0] + std::size_t(end[0]) * (i[1] + std::size_t(end[1]) * i[2]);
       };
       std::vector<Index> stack;

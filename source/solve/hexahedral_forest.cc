@@ -279,7 +279,7 @@ namespace tetradapt::solve
     space.n_local        = numbering.n_local();
     space.n_nodes        = numbering.layout->size() / 3;
     space.layout         = numbering.layout;
-    space.hanging_begin  = {0};
+    space.hanging_begin.assign(1, 0);
     space.cell_nodes.reserve(nodes.size());
     std::map<global_dof_index, unsigned int> hanging;
     for (const global_dof_index node : nodes)
