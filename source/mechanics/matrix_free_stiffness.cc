@@ -73,6 +73,7 @@ namespace tetradapt::mechanics
     n_own_batches                = (first_with_ghosts - cells.begin()) / W;
     n_batches                    = (cells.size() + W - 1) / W;
     nodes.resize_fast(10 * W * std::size_t(n_batches));
+    at_end.assign(n_batches, 0);
     gradients.resize_fast(9 * W * std::size_t(n_batches));
     tangent_values.resize(size * W * std::size_t(n_batches)); // zero: lanes left over do nothing
     for (unsigned int k = 0; k < n_batches * W; ++k)
@@ -80,7 +81,12 @@ namespace tetradapt::mechanics
         const unsigned int cell  = cells[std::min<std::size_t>(k, cells.size() - 1)];
         const std::size_t  batch = k / W, lane = k % W;
         for (unsigned int i = 0; i < 10; ++i)
-          nodes[(10 * batch + i) * W + lane] = space.local_node(space.cell_node(cell, i));
+          {
+            const unsigned int node            = space.local_node(space.cell_node(cell, i));
+            nodes[(10 * batch + i) * W + lane] = node;
+            if (node + 1 == space.n_local_nodes())
+              at_end[batch] = 1;
+          }
         const auto g = mesh::barycentric_gradients(space.tet_mesh(), cell);
         for (unsigned int i = 0; i < 9; ++i)
           gradients[(9 * batch + i) * W + lane] = g[1 + i / 3][i % 3];
@@ -99,11 +105,14 @@ namespace tetradapt::mechanics
   {
     std::vector<Block> blocks(space.n_local_nodes(), Block{});
     if (n_batches > 0)
-      add_diagonal_blocks<Number>(
-        {nodes.data(), gradients.data(), tangent_values.data(), form_of(isotropic, one_tangent)},
-        0,
-        n_batches,
-        blocks.data()->data());
+      add_diagonal_blocks<Number>({nodes.data(),
+                                   at_end.data(),
+                                   gradients.data(),
+                                   tangent_values.data(),
+                                   form_of(isotropic, one_tangent)},
+                                  0,
+                                  n_batches,
+                                  blocks.data()->data());
     blocks.resize(space.n_owned_nodes());
     for (const unsigned int unknown : fixed)
       if (unknown < 3 * blocks.size())
@@ -124,12 +133,15 @@ namespace tetradapt::mechanics
                                           const Number *x,
                                           Number       *y) const
   {
-    apply_stiffness<Number>(
-      {nodes.data(), gradients.data(), tangent_values.data(), form_of(isotropic, one_tangent)},
-      begin,
-      end,
-      x,
-      y);
+    apply_stiffness<Number>({nodes.data(),
+                             at_end.data(),
+                             gradients.data(),
+                             tangent_values.data(),
+                             form_of(isotropic, one_tangent)},
+                            begin,
+                            end,
+                            x,
+                            y);
   }
 
   template <typename Number>

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "stiffness_kernel.h"
 
-#include "tetradapt/core/clones.h"
-
-#include <cstddef>
+#include "stiffness_lanes.h"
 
 namespace tetradapt::mechanics
 {
@@ -185,26 +183,18 @@ namespace tetradapt::mechanics
       for (unsigned int batch = begin; batch < end; ++batch)
         {
           const unsigned int *nodes = batches.nodes + 10 * W * std::size_t(batch);
-          for (unsigned int n = 0; n < 10; ++n)
-            for (unsigned int l = 0; l < W; ++l)
-              {
-                const Number *from     = x + 3 * std::size_t(nodes[n * W + l]);
-                u[(3 * n) * W + l]     = from[0];
-                u[(3 * n + 1) * W + l] = from[1];
-                u[(3 * n + 2) * W + l] = from[2];
-              }
+          if (batches.at_end[batch] != 0)
+            for (unsigned int n = 0; n < 10; ++n)
+              gather_at_end(x, nodes + n * W, u + 3 * n * W);
+          else
+            for (unsigned int n = 0; n < 10; ++n)
+              gather(x, nodes + n * W, u + 3 * n * W);
           cell_forces<Number, form>(u,
                                     batches.gradients + 9 * W * std::size_t(batch),
                                     batches.tangents + tangent_size(form) * W * std::size_t(batch),
                                     f);
           for (unsigned int n = 0; n < 10; ++n)
-            for (unsigned int l = 0; l < W; ++l)
-              {
-                Number *to = y + 3 * std::size_t(nodes[n * W + l]);
-                to[0] += f[(3 * n) * W + l];
-                to[1] += f[(3 * n + 1) * W + l];
-                to[2] += f[(3 * n + 2) * W + l];
-              }
+            scatter(f + 3 * n * W, nodes + n * W, y);
         }
     }
 

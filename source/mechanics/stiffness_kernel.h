@@ -32,10 +32,12 @@ namespace tetradapt::mechanics
   template <typename Number>
   struct StiffnessBatches
   {
-    const unsigned int *nodes;     ///< 10 a cell: vertices, then edges in the mesh's order
-    const Number       *gradients; ///< 9: of barycentric coordinates 1, 2, 3; x, y, z each
-    const Number       *tangents;  ///< tangent_size() of them
-    TangentForm         form;
+    const unsigned int *nodes; ///< 10 a cell: vertices, then edges in the mesh's order
+    /** Of each batch: not zero if it has the last node of the vectors. */
+    const unsigned char *at_end;
+    const Number        *gradients; ///< 9: of barycentric coordinates 1, 2, 3; x, y, z each
+    const Number        *tangents;  ///< tangent_size() of them
+    TangentForm          form;
   };
 
   /** y += K x for the batches from @p begin to @p end; x and y have three components a

@@ -75,6 +75,7 @@ namespace tetradapt::mechanics
     unsigned int                    n_own_batches = 0; ///< these, first, have no ghosts
     bool                            isotropic, one_tangent;
     dealii::AlignedVector<unsigned> nodes;
+    std::vector<unsigned char>      at_end; ///< of batches: whether they have the last node
     dealii::AlignedVector<Number>   gradients, tangent_values;
     std::vector<Block>              diagonal;
   };
