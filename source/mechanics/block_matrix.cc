@@ -1,74 +1,76 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/mechanics/block_matrix.h"
 
-#include <algorithm>
-
 namespace tetradapt::mechanics
 {
   namespace
   {
-    /** The cells around each owned node, in compressed rows. */
-    struct NodeCells
+    constexpr unsigned int invalid = dealii::numbers::invalid_unsigned_int;
+
+    /** The local nodes of the space's cells, and of each owned node where it is among them. */
+    struct CellNodes
     {
-      explicit NodeCells(const DisplacementSpace &space) : starts(space.n_owned_nodes() + 1, 0)
+      explicit CellNodes(const DisplacementSpace &space)
+        : n_per_cell(space.n_nodes_per_cell()), starts(space.n_owned_nodes() + 1, 0)
       {
-        const unsigned int n_per_cell = space.n_nodes_per_cell();
-        const auto         for_each   = [&](const auto &action) {
-          for (const unsigned int cell : space.touching_cells())
-            for (unsigned int i = 0; i < n_per_cell; ++i)
-              {
-                const unsigned int node = space.local_node(space.cell_node(cell, i));
-                if (node < space.n_owned_nodes())
-                  action(node, cell);
-              }
-        };
-        for_each([&](unsigned int node, unsigned int) { ++starts[node + 1]; });
+        nodes.reserve(std::size_t(n_per_cell) * space.touching_cells().size());
+        for (const unsigned int cell : space.touching_cells())
+          for (unsigned int i = 0; i < n_per_cell; ++i)
+            nodes.push_back(space.local_node(space.cell_node(cell, i)));
+        for (const unsigned int node : nodes)
+          if (node < space.n_owned_nodes())
+            ++starts[node + 1];
         for (unsigned int node = 0; node + 1 < starts.size(); ++node)
           starts[node + 1] += starts[node];
-        cells.resize(starts.back());
-        auto position = starts;
-        for_each([&](unsigned int node, unsigned int cell) { cells[position[node]++] = cell; });
+        positions.resize(starts.back());
+        auto next = starts;
+        for (std::size_t k = 0; k < nodes.size(); ++k)
+          if (nodes[k] < space.n_owned_nodes())
+            positions[next[nodes[k]]++] = k;
       }
 
-      std::vector<std::size_t>  starts;
-      std::vector<unsigned int> cells;
+      unsigned int              n_per_cell;
+      std::vector<unsigned int> nodes;
+      std::vector<std::size_t>  starts, positions;
     };
   } // namespace
 
-  BlockMatrix::BlockMatrix(const DisplacementSpace &space) : layout(space.vector_layout())
+  BlockMatrix::BlockMatrix(const DisplacementSpace &space, std::vector<unsigned int> *cell_entries)
+    : layout(space.vector_layout())
   {
-    const NodeCells            around(space);
-    std::vector<std::size_t>  &row_starts = entries.begin;
-    std::vector<unsigned int> &columns    = entries.columns;
-    row_starts.resize(space.n_owned_nodes() + 1);
-    const unsigned int        n_per_cell = space.n_nodes_per_cell();
-    std::vector<unsigned int> last_row(space.n_local_nodes(),
-                                       dealii::numbers::invalid_unsigned_int);
-    columns.reserve(static_cast<std::size_t>(space.n_owned_nodes()) * (n_per_cell == 4 ? 15 : 28));
+    const CellNodes            around(space);
+    const unsigned int         n       = around.n_per_cell;
+    std::vector<unsigned int> &columns = entries.columns;
+    // Where the present row has a column; less than its beginning: it has not.
+    std::vector<std::size_t> where(space.n_local_nodes(), ~std::size_t(0));
+    columns.reserve(static_cast<std::size_t>(space.n_owned_nodes()) * (n == 4 ? 15 : 28));
+    entries.begin.reserve(space.n_owned_nodes() + 1);
+    if (cell_entries != nullptr)
+      cell_entries->assign(n * around.nodes.size(), invalid);
     for (unsigned int row = 0; row < space.n_owned_nodes(); ++row)
       {
-        for (std::size_t k = around.starts[row]; k < around.starts[row + 1]; ++k)
-          for (unsigned int i = 0; i < n_per_cell; ++i)
-            {
-              const unsigned int node = space.local_node(space.cell_node(around.cells[k], i));
-              if (last_row[node] != row)
-                {
-                  last_row[node] = row;
-                  columns.push_back(node);
-                }
-            }
-        std::sort(columns.begin() + row_starts[row], columns.end());
-        row_starts[row + 1] = columns.size();
+        const std::size_t first = columns.size();
+        where[row]              = first;
+        columns.push_back(row);
+        for (std::size_t p = around.starts[row]; p < around.starts[row + 1]; ++p)
+          {
+            const std::size_t   k     = around.positions[p];
+            const unsigned int *nodes = around.nodes.data() + k / n * n;
+            for (unsigned int i = 0; i < n; ++i)
+              {
+                std::size_t &entry = where[nodes[i]];
+                if (entry < first || entry == ~std::size_t(0))
+                  {
+                    entry = columns.size();
+                    columns.push_back(nodes[i]);
+                  }
+                if (cell_entries != nullptr)
+                  (*cell_entries)[n * k + i] = entry;
+              }
+          }
+        entries.begin.push_back(columns.size());
       }
     entries.blocks.assign(columns.size(), Block{});
-  }
-
-  std::size_t
-  BlockMatrix::find(unsigned int row, unsigned int column) const
-  {
-    const auto first = entries.columns.begin();
-    return std::lower_bound(first + entries.begin[row], first + entries.begin[row + 1], column)
-           - first;
   }
 
   void

@@ -84,33 +84,27 @@ namespace tetradapt::mechanics
       std::array<BlockMatrix::Block, n * n> blocks;
     };
 
-    /** Adds one block to a row, leaving out constrained rows and columns and
-     * moving prescribed values to the right-hand side. */
+    /** Adds one block to entry @p entry of a row, leaving out constrained rows and columns
+     * and moving prescribed values to the right-hand side. */
     void
-    add_block(const BlockMatrix::Block     &K,
-              bool                          transposed,
-              unsigned int                  row_node,
-              unsigned int                  column_node,
-              unsigned int                  row,
-              unsigned int                  column,
-              const PrescribedDisplacement &prescribed,
-              LinearSystem                 &system)
+    add_constrained_block(const BlockMatrix::Block     &K,
+                          bool                          transposed,
+                          unsigned int                  row_node,
+                          unsigned int                  column_node,
+                          unsigned int                  row,
+                          unsigned int                  entry,
+                          const PrescribedDisplacement &prescribed,
+                          LinearSystem                 &system)
     {
-      BlockMatrix::Block &target       = system.matrix.block(system.matrix.find(row, column));
+      BlockMatrix::Block &target       = system.matrix.block(entry);
       const unsigned char row_fixed    = prescribed.fixed[row_node];
       const unsigned char column_fixed = prescribed.fixed[column_node];
-      if (row_fixed == 0 && column_fixed == 0) // almost everywhere
-        {
-          for (unsigned int i = 0; i < 9; ++i)
-            target[i] += transposed ? K[3 * (i % 3) + i / 3] : K[i];
-          return;
-        }
       for (unsigned int i = 0; i < 3; ++i)
         for (unsigned int j = 0; j < 3; ++j)
           {
             const double value   = transposed ? K[3 * j + i] : K[3 * i + j];
             const bool   i_fixed = row_fixed >> i & 1, j_fixed = column_fixed >> j & 1;
-            if ((!i_fixed && !j_fixed) || (row == column && i == j))
+            if ((!i_fixed && !j_fixed) || (row_node == column_node && i == j))
               target[3 * i + j] += value;
             else if (!i_fixed)
               system.prescribed_forces.local_element(3 * row + i)
@@ -118,47 +112,70 @@ namespace tetradapt::mechanics
           }
     }
 
+    void
+    add_free_block(const BlockMatrix::Block &K, bool transposed, BlockMatrix::Block &target)
+    {
+      if (transposed)
+        for (unsigned int i = 0; i < 9; ++i)
+          target[i] += K[3 * (i % 3) + i / 3];
+      else
+        for (unsigned int i = 0; i < 9; ++i)
+          target[i] += K[i];
+    }
+
+    /** @p entries: where the matrix has the cell's blocks (see BlockMatrix). */
     template <unsigned int n>
     void
     add_cell(const DisplacementSpace      &space,
              unsigned int                  cell,
              const CellStiffness<n>       &stiffness,
              const PrescribedDisplacement &prescribed,
+             const unsigned int           *entries,
              LinearSystem                 &system)
     {
-      std::array<unsigned int, n> nodes, local;
+      std::array<unsigned int, n> nodes;
+      unsigned char               any_fixed = 0;
       for (unsigned int i = 0; i < n; ++i)
         {
           nodes[i] = space.cell_node(cell, i);
-          local[i] = space.local_node(nodes[i]);
+          any_fixed |= prescribed.fixed[nodes[i]];
         }
       for (unsigned int a = 0; a < n; ++a)
-        if (local[a] < space.n_owned_nodes())
+        if (entries[n * a] != dealii::numbers::invalid_unsigned_int)
           for (unsigned int b = 0; b < n; ++b)
-            add_block(a <= b ? stiffness.block(a, b) : stiffness.block(b, a),
-                      a > b,
-                      nodes[a],
-                      nodes[b],
-                      local[a],
-                      local[b],
-                      prescribed,
-                      system);
+            {
+              const auto &K = a <= b ? stiffness.block(a, b) : stiffness.block(b, a);
+              if (any_fixed == 0) // almost everywhere
+                add_free_block(K, a > b, system.matrix.block(entries[n * a + b]));
+              else
+                add_constrained_block(K,
+                                      a > b,
+                                      nodes[a],
+                                      nodes[b],
+                                      space.local_node(nodes[a]),
+                                      entries[n * a + b],
+                                      prescribed,
+                                      system);
+            }
     }
 
     template <unsigned int n>
     void
-    assemble_cells(const DisplacementSpace      &space,
-                   const TangentField           &tangents,
-                   const PrescribedDisplacement &prescribed,
-                   LinearSystem                 &system)
+    assemble_cells(const DisplacementSpace         &space,
+                   const TangentField              &tangents,
+                   const PrescribedDisplacement    &prescribed,
+                   const std::vector<unsigned int> &cell_entries,
+                   LinearSystem                    &system)
     {
       const mesh::TetMesh &mesh   = space.tet_mesh();
       const auto           points = stiffness_points(space.degree());
       CellStiffness<n>     stiffness;
+      const unsigned int  *entries = cell_entries.data();
       for (const unsigned int cell : space.touching_cells())
         {
           stiffness.compute(mesh, cell, tangents, points);
-          add_cell(space, cell, stiffness, prescribed, system);
+          add_cell(space, cell, stiffness, prescribed, entries, system);
+          entries += n * n;
         }
     }
   } // namespace
@@ -168,11 +185,12 @@ namespace tetradapt::mechanics
            const TangentField           &tangents,
            const PrescribedDisplacement &prescribed)
   {
-    LinearSystem system(space);
+    std::vector<unsigned int> cell_entries;
+    LinearSystem              system(space, &cell_entries);
     if (space.degree() == 1)
-      assemble_cells<4>(space, tangents, prescribed, system);
+      assemble_cells<4>(space, tangents, prescribed, cell_entries, system);
     else
-      assemble_cells<10>(space, tangents, prescribed, system);
+      assemble_cells<10>(space, tangents, prescribed, cell_entries, system);
     return system;
   }
 
@@ -186,7 +204,7 @@ namespace tetradapt::mechanics
     for (unsigned int row = 0; row < space.n_owned_nodes(); ++row)
       {
         const unsigned int node     = space.field_node(row);
-        const auto        &diagonal = system.matrix.block(system.matrix.find(row, row));
+        const auto        &diagonal = system.matrix.block(system.matrix.row_begin(row));
         for (unsigned int c = 0; c < 3; ++c)
           b.local_element(3 * row + c)
             = prescribed.is_fixed(node, c)

@@ -71,7 +71,7 @@ namespace tetradapt::solve
           const double entry
             = matrix_free != nullptr
                 ? matrix_free->diagonal_blocks()[node][4 * c]
-                : assembled->matrix.block(assembled->matrix.find(node, node))[4 * c];
+                : assembled->matrix.block(assembled->matrix.row_begin(node))[4 * c];
           largest = std::max(largest, entry);
         }
     return dealii::Utilities::MPI::max(largest, space.communicator());

@@ -72,7 +72,7 @@ namespace
     for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
       for (unsigned int i = 0; i < 9; ++i)
         {
-          const double entry = assembled.matrix.block(assembled.matrix.find(node, node))[i];
+          const double entry = assembled.matrix.block(assembled.matrix.row_begin(node))[i];
           worst = std::max(worst, std::abs(matrix_free.diagonal_blocks()[node][i] - entry));
           scale = std::max(scale, std::abs(entry));
         }

@@ -37,8 +37,12 @@ namespace tetradapt::mechanics
   public:
     using Block = BlockRows<3, 3>::Block;
 
-    /** The pattern of the space's couplings, all values zero. */
-    explicit BlockMatrix(const DisplacementSpace &space);
+    /** The pattern of the space's couplings, all values zero.
+     * @param cell_entries if not null, gets where the blocks of cells go: that of nodes i and
+     *        j of the k-th of the space's touching cells, which have n nodes each, to entry
+     *        (*cell_entries)[(k n + i) n + j]; numbers::invalid_unsigned_int if i is a ghost. */
+    explicit BlockMatrix(const DisplacementSpace   &space,
+                         std::vector<unsigned int> *cell_entries = nullptr);
 
     unsigned int
     n_rows() const
@@ -50,6 +54,7 @@ namespace tetradapt::mechanics
     {
       return entries.columns.size();
     }
+    /** The first entry of a row, which is its own block. */
     std::size_t
     row_begin(unsigned int row) const
     {
@@ -75,16 +80,12 @@ namespace tetradapt::mechanics
     {
       return entries.blocks[entry];
     }
-    /** All of it; columns are sorted in each row. */
+    /** All of it. */
     const BlockRows<3, 3> &
     rows() const
     {
       return entries;
     }
-    /** Where row @p row keeps column @p column, which must be in the pattern. */
-    std::size_t
-    find(unsigned int row, unsigned int column) const;
-
     void
     vmult(Vector &destination, const Vector &source) const override;
 

@@ -12,7 +12,10 @@ namespace tetradapt::mechanics
    * only their diagonal entry. */
   struct LinearSystem
   {
-    explicit LinearSystem(const DisplacementSpace &space) : matrix(space)
+    /** All zero; @p cell_entries as in BlockMatrix. */
+    explicit LinearSystem(const DisplacementSpace   &space,
+                          std::vector<unsigned int> *cell_entries = nullptr)
+      : matrix(space, cell_entries)
     {
       prescribed_forces.reinit(space.vector_layout());
     }
