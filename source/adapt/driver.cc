@@ -118,7 +118,7 @@ namespace tetradapt::adapt
     start.reset();
     predicted_error = 0.;
     log.info((number == 0 ? "Initial mesh: " : "Mesh " + std::to_string(number) + ": ")
-             + describe_mesh(*mesh));
+             + describe_mesh(*mesh, current.record));
   }
 
   void

@@ -136,7 +136,7 @@ namespace tetradapt::adapt
     std::ostringstream text;
     text << (anew ? "Made anew" : "Refined") << " from " << old_tets << " to " << mesh->n_cells()
          << " tetrahedra (" << std::lround(field.predicted_tets)
-         << " predicted): " << describe_mesh(*mesh);
+         << " predicted): " << describe_mesh(*mesh, current.record);
     log.info(text.str());
   }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace tetradapt::compare
 {
@@ -13,22 +14,29 @@ namespace tetradapt::compare
     n_samples = cells.size() * n_a_cell;
     n_batches = (n_samples + core::n_lanes - 1) / core::n_lanes;
     rows.resize_fast(std::size_t(StressSamples::n_numbers) * n_batches * core::n_lanes);
-    begin                    = rows.data();
-    const std::size_t stride = std::size_t(n_batches) * core::n_lanes;
-    const auto        copy   = [&](const auto n) {
-      double *to = begin;
-      for (const unsigned int cell : cells)
-        {
-          const double *from = samples[cell];
-          for (unsigned int k = 0; k < StressSamples::n_numbers; ++k)
-            std::copy_n(from + k * n, n, to + k * stride);
-          to += n;
-        }
-    };
+    begin = rows.data();
     if (n_a_cell == 4)
-      copy(std::integral_constant<unsigned int, 4>());
+      copy<4>(samples, cells);
+    else if (n_a_cell == 1)
+      copy<1>(samples, cells);
     else
-      copy(n_a_cell);
+      throw std::logic_error("patches are made of one or four samples a cell");
+  }
+
+  template <unsigned int n>
+  void
+  PatchSamples::copy(const StressSamples &samples, const std::vector<unsigned int> &cells)
+  {
+    const std::size_t stride = std::size_t(n_batches) * core::n_lanes;
+    double           *to     = begin;
+    for (const unsigned int cell : cells)
+      {
+        const double *from = samples[cell];
+        for (unsigned int k = 0; k < StressSamples::n_numbers; ++k)
+          for (unsigned int q = 0; q < n; ++q)
+            to[k * stride + q] = from[k * n + q];
+        to += n;
+      }
   }
 
   namespace

@@ -14,6 +14,7 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 
 extern char **environ;
@@ -107,8 +108,16 @@ namespace tetradapt::core
         for (std::string &text : texts)
           arguments.push_back(text.data());
         arguments.push_back(nullptr);
+        std::vector<std::string> added = program.environment;
+        std::vector<char *>      variables;
+        for (char **variable = environ; variable != nullptr && *variable != nullptr; ++variable)
+          variables.push_back(*variable);
+        for (std::string &variable : added)
+          if (std::getenv(variable.substr(0, variable.find('=')).c_str()) == nullptr)
+            variables.push_back(variable.data());
+        variables.push_back(nullptr);
         const int error = posix_spawn(
-          &pid, program.path.c_str(), &actions, &attributes, arguments.data(), environ);
+          &pid, program.path.c_str(), &actions, &attributes, arguments.data(), variables.data());
         posix_spawn_file_actions_destroy(&actions);
         posix_spawnattr_destroy(&attributes);
         if (error != 0)

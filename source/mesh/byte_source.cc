@@ -172,8 +172,9 @@ namespace tetradapt::mesh
     const std::size_t          n_blocks    = (n_bytes + block_bytes - 1) / block_bytes;
     const std::size_t          start       = (3 + n_blocks) * sizeof(std::uint64_t);
     std::vector<std::uint64_t> header{n_blocks, block_bytes, n_bytes % block_bytes};
-    std::string                result(start + n_blocks * ::compressBound(block_bytes), '\0');
-    std::size_t                place = start;
+    // Most arrays are single numbers: room for a whole block each would cost more than all else.
+    std::string result(start + n_blocks * ::compressBound(std::min(block_bytes, n_bytes)), '\0');
+    std::size_t place = start;
     for (std::size_t b = 0; b < n_blocks; ++b)
       {
         uLongf length = result.size() - place;

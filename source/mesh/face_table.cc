@@ -2,6 +2,7 @@
 #include "tetradapt/mesh/face_table.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
 
 namespace tetradapt::mesh
@@ -33,6 +34,36 @@ namespace tetradapt::mesh
       for (const BoundaryFace &face : mesh.faces)
         visit(sorted(face.vertices[0], face.vertices[1], face.vertices[2]));
     }
+    std::uint64_t
+    key(const FaceTable::Entry &entry)
+    {
+      return std::uint64_t(entry.middle) << 32 | entry.largest;
+    }
+
+
+
+    /** Sorts entries that come in the order of their slots. Buckets are small, and most have
+     * what insertion sorts fastest. */
+    void
+    sort_bucket(FaceTable::Entry *const first, FaceTable::Entry *const last)
+    {
+      constexpr std::ptrdiff_t largest = 48;
+      if (last - first > largest)
+        return std::stable_sort(first,
+                                last,
+                                [](const FaceTable::Entry &a, const FaceTable::Entry &b) {
+                                  return key(a) < key(b);
+                                });
+      for (FaceTable::Entry *next = first; next < last; ++next)
+        {
+          const FaceTable::Entry entry  = *next;
+          const std::uint64_t    number = key(entry);
+          FaceTable::Entry      *place  = next;
+          for (; place > first && number < key(place[-1]); --place)
+            *place = place[-1];
+          *place = entry;
+        }
+    }
   } // namespace
 
 
@@ -53,13 +84,7 @@ namespace tetradapt::mesh
     begin.pop_back();
 
     for (std::size_t v = 0; v + 1 < begin.size(); ++v)
-      std::sort(entries.begin() + begin[v],
-                entries.begin() + begin[v + 1],
-                [](const Entry &a, const Entry &b) {
-                  if (a.middle != b.middle)
-                    return a.middle < b.middle;
-                  return a.largest != b.largest ? a.largest < b.largest : a.slot < b.slot;
-                });
+      sort_bucket(entries.data() + begin[v], entries.data() + begin[v + 1]);
   }
 
 

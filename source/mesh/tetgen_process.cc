@@ -37,6 +37,12 @@ namespace tetradapt::mesh
       return text;
     }
 
+    /** TetGen walks through many small pieces of memory: large pages, which the C library
+     * asks for where it knows these settings, save it a tenth of its time. */
+    constexpr char memory_settings[]
+      = "GLIBC_TUNABLES=glibc.malloc.hugetlb=1:glibc.malloc.top_pad=8388608:"
+        "glibc.malloc.mmap_threshold=1073741824:glibc.malloc.trim_threshold=2147483648";
+
     std::string
     number(double x)
     {
@@ -211,7 +217,9 @@ namespace tetradapt::mesh
     std::memcpy(writer.bytes.data(), &header, sizeof(header));
 
     const core::ChildResult result
-      = core::run_child({"tetradapt-tetgen", worker, {}}, writer.bytes, limits.time);
+      = core::run_child({"tetradapt-tetgen", worker, {}, {memory_settings}},
+                        writer.bytes,
+                        limits.time);
     if (result.timed_out)
       fail_time(what, limits);
 

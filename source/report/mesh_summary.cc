@@ -40,12 +40,11 @@ namespace tetradapt::report
   } // namespace
 
   std::string
-  mesh_line(const mesh::TetMesh &mesh)
+  mesh_line(const mesh::TetMesh &mesh, const adapt::MeshRecord &record)
   {
-    const mesh::MeshQuality quality = mesh::mesh_quality(mesh);
     return std::to_string(mesh.n_points()) + " points, " + std::to_string(mesh.n_cells())
-           + " tetrahedra, dihedral angles " + number(quality.min_dihedral.min) + " to "
-           + number(quality.max_dihedral.max) + " degrees";
+           + " tetrahedra, dihedral angles " + number(record.min_dihedral) + " to "
+           + number(record.max_dihedral) + " degrees";
   }
 
   std::string

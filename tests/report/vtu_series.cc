@@ -3,6 +3,7 @@
 // what is for looking at. Also the description of a mesh for the log.
 
 #include "tetradapt/report/vtu_series.h"
+#include "tetradapt/adapt/mesh_record.h"
 
 #include "tetradapt/mesh/bricks.h"
 #include "tetradapt/mesh/mesh_checks.h"
@@ -175,5 +176,7 @@ main()
     }
   std::cout << "as by geometry: " << right << std::endl;
 
-  std::cout << report::mesh_line(*m) << std::endl << report::mesh_summary(*m) << std::endl;
+  adapt::MeshRecord record;
+  adapt::describe_mesh(*m, 1., record);
+  std::cout << report::mesh_line(*m, record) << std::endl << report::mesh_summary(*m) << std::endl;
 }

@@ -38,7 +38,7 @@ namespace tetradapt::adapt
   {
   public:
     /** Describes a mesh for the log; made by the report room. */
-    using MeshDescription = std::function<std::string(const mesh::TetMesh &)>;
+    using MeshDescription = std::function<std::string(const mesh::TetMesh &, const MeshRecord &)>;
 
     /** Keeps references to all arguments, which must outlive it. */
     Driver(const scene::Scene            &scene,

@@ -26,10 +26,11 @@ namespace tetradapt::compare
   }
 
   /**
-   * Cholesky's factor of a symmetric positive matrix of some ten rows, which are scaled to a
-   * diagonal of ones. Columns lie in whole vectors of the processor: eight rows are worked on
-   * together, and four columns at once are reduced by all columns before them, so that
-   * each number is loaded once for four uses.
+   * Cholesky's factorisation without roots, L D L^T, of a symmetric positive matrix of some
+   * ten rows, which are scaled to a diagonal of ones. L D is kept: a root and a division for
+   * every column would be what everything waits for. Columns lie in whole vectors of the processor:
+   * eight rows are worked on together, and four columns at once are reduced by all columns before
+   * them, so that each number is loaded once for four uses.
    *
    * To be used within functions that are compiled for wide vectors (core/clones.h).
    */
@@ -71,23 +72,25 @@ namespace tetradapt::compare
       for (unsigned int first = 0; first < n; first += width)
         {
           const unsigned int from = first / core::n_lanes;
-          unsigned int       v    = from;
+          double             factors[n][width];
+          for (unsigned int k = 0; k < first; ++k)
+            for (unsigned int t = 0; t < width; ++t)
+              factors[k][t] = column(k)[first + t] * inverse_pivots[k];
+          unsigned int v = from;
           if constexpr (n_vectors > 1)
             for (; v + 1 < n_vectors; v += 2)
-              reduce<2>(first, v);
+              reduce<2>(factors, first, v);
           if (v < n_vectors)
-            reduce<1>(first, v);
+            reduce<1>(factors, first, v);
           for (unsigned int k = first; k < first + width; ++k)
             {
               const double pivot = column(k)[k];
               if (!(pivot > smallest_pivot))
                 return false;
-              inverse_diagonal[k] = 1. / std::sqrt(pivot);
-              for (unsigned int u = from; u < n_vectors; ++u)
-                columns[k][u] *= inverse_diagonal[k];
+              inverse_pivots[k] = 1. / pivot;
               for (unsigned int j = k + 1; j < first + width; ++j)
                 {
-                  const double factor = column(k)[j];
+                  const double factor = column(k)[j] * inverse_pivots[k];
                   for (unsigned int u = from; u < n_vectors; ++u)
                     columns[j][u] -= factor * columns[k][u];
                 }
@@ -110,12 +113,10 @@ namespace tetradapt::compare
         x[i] *= scale[i];
       for (unsigned int k = 0; k < n; ++k)
         {
-          const double f = x[k] * inverse_diagonal[k];
+          const double f = x[k] * inverse_pivots[k];
           for (unsigned int u = k / core::n_lanes; u < n_vectors; ++u)
             vectors[u] -= f * columns[k][u];
         }
-      for (unsigned int i = 0; i < n; ++i)
-        x[i] *= inverse_diagonal[i];
       for (unsigned int block = n_vectors; block-- > 0;)
         {
           const unsigned int begin         = block * core::n_lanes,
@@ -131,7 +132,7 @@ namespace tetradapt::compare
               double        sum     = x[k];
               for (unsigned int i = k + 1; i < end; ++i)
                 sum -= numbers[i] * x[i];
-              x[k] = sum * inverse_diagonal[k];
+              x[k] = sum * inverse_pivots[k];
             }
         }
       for (unsigned int i = 0; i < n; ++i)
@@ -142,7 +143,7 @@ namespace tetradapt::compare
     TETRADAPT_INLINE void
     invert(core::Lanes (&inverse)[n][n_vectors]) const
     {
-      alignas(64) core::Lanes factor[n][n_vectors]; // of the inverse: that of Cholesky's factor
+      alignas(64) core::Lanes factor[n][n_vectors]; // the inverse of L
       for (unsigned int i = 0; i < n; ++i)
         {
           for (core::Lanes &lanes : factor[i])
@@ -150,12 +151,10 @@ namespace tetradapt::compare
           reinterpret_cast<double *>(factor[i])[i] = 1.;
           for (unsigned int k = 0; k < i; ++k)
             {
-              const double f = reinterpret_cast<const double *>(columns[k])[i];
+              const double f = reinterpret_cast<const double *>(columns[k])[i] * inverse_pivots[k];
               for (unsigned int u = 0; u <= i / core::n_lanes; ++u)
                 factor[i][u] -= f * factor[k][u];
             }
-          for (core::Lanes &lanes : factor[i])
-            lanes *= inverse_diagonal[i];
         }
       alignas(64) double scales[n_rows] = {};
       for (unsigned int i = 0; i < n; ++i)
@@ -166,7 +165,7 @@ namespace tetradapt::compare
             lanes = core::Lanes{};
           for (unsigned int k = i; k < n; ++k)
             {
-              const double f = reinterpret_cast<const double *>(factor[k])[i];
+              const double f = reinterpret_cast<const double *>(factor[k])[i] * inverse_pivots[k];
               for (unsigned int u = 0; u < n_vectors; ++u)
                 inverse[i][u] += f * factor[k][u];
             }
@@ -196,10 +195,10 @@ namespace tetradapt::compare
     }
 
     /** Subtracts from @p height vectors of the columns from @p first on what those before
-     * give. */
+     * give, times the factors. */
     template <unsigned int height>
     TETRADAPT_INLINE void
-    reduce(const unsigned int first, const unsigned int v)
+    reduce(const double (&factors)[n][width], const unsigned int first, const unsigned int v)
     {
       alignas(64) core::Lanes sums[width][height];
       for (unsigned int t = 0; t < width; ++t)
@@ -208,9 +207,8 @@ namespace tetradapt::compare
       for (unsigned int k = 0; k < first; ++k)
         for (unsigned int t = 0; t < width; ++t)
           {
-            const double factor = reinterpret_cast<const double *>(columns[k])[first + t];
             for (unsigned int h = 0; h < height; ++h)
-              sums[t][h] -= factor * columns[k][v + h];
+              sums[t][h] -= factors[k][t] * columns[k][v + h];
           }
       for (unsigned int t = 0; t < width; ++t)
         for (unsigned int h = 0; h < height; ++h)
@@ -219,7 +217,7 @@ namespace tetradapt::compare
 
     // Vectors that cross lines of the cache cost several times as much.
     alignas(64) core::Lanes columns[n][n_vectors];
-    double scale[n], inverse_diagonal[n];
+    double scale[n], inverse_pivots[n];
   };
 } // namespace tetradapt::compare
 

@@ -36,6 +36,10 @@ namespace tetradapt::compare
     }
 
   private:
+    template <unsigned int n>
+    void
+    copy(const StressSamples &samples, const std::vector<unsigned int> &cells);
+
     dealii::AlignedVector<double> rows;
     double                       *begin = nullptr; ///< of rows
   };

@@ -23,6 +23,8 @@ namespace tetradapt::core
     std::string              name; ///< for messages, and what the program sees as its name
     std::string              path;
     std::vector<std::string> arguments;
+    /** "NAME=value", added to this process's environment where the name is not set there. */
+    std::vector<std::string> environment = {};
   };
 
   /**

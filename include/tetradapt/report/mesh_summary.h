@@ -2,6 +2,7 @@
 #ifndef tetradapt_report_mesh_summary_h
 #define tetradapt_report_mesh_summary_h
 
+#include "tetradapt/adapt/observer.h"
 #include "tetradapt/mesh/tet_mesh.h"
 
 #include <string>
@@ -9,9 +10,10 @@
 namespace tetradapt::report
 {
   /** "1071 points, 3456 tetrahedra, dihedral angles 10.2 to 158 degrees": one
-   * line for the log, cheap enough for every cycle. */
+   * line for the log, cheap enough for every cycle.
+   * @param record of this mesh: has the angles. */
   std::string
-  mesh_line(const mesh::TetMesh &mesh);
+  mesh_line(const mesh::TetMesh &mesh, const adapt::MeshRecord &record);
 
   /**
    * What a finalized mesh consists of, several lines for the log: counts, the
