@@ -9,7 +9,7 @@ namespace tetradapt::mesh
   namespace
   {
     /** The larger end of an edge and, in the lower half, where it was named: 6 *
-     * cell + local edge. One number sorts faster than two. */
+     * cell + local edge. */
     using HalfEdge = std::uint64_t;
 
     constexpr unsigned int
@@ -49,16 +49,22 @@ namespace tetradapt::mesh
           half_edges[begin[std::min(cell[i], cell[j]) + 1]++]
             = static_cast<HalfEdge>(std::max(cell[i], cell[j])) << 32 | slot++;
 
-      std::vector<unsigned int> first(half_edges.size());
+      // In a bucket they come in the order of slots: what a point remembers of the last
+      // bucket that named it replaces sorting.
+      constexpr unsigned int                   none = dealii::numbers::invalid_unsigned_int;
+      std::vector<std::array<unsigned int, 2>> last(mesh.n_points(), {{none, none}});
+      std::vector<unsigned int>                first(half_edges.size());
       for (unsigned int v = 0; v < mesh.n_points(); ++v)
-        {
-          std::sort(half_edges.begin() + begin[v], half_edges.begin() + begin[v + 1]);
-          for (unsigned int k = begin[v]; k < begin[v + 1]; ++k)
-            first[slot_of(half_edges[k])]
-              = (k > begin[v] && larger(half_edges[k]) == larger(half_edges[k - 1]))
-                  ? first[slot_of(half_edges[k - 1])]
-                  : slot_of(half_edges[k]);
-        }
+        for (unsigned int k = begin[v]; k < begin[v + 1]; ++k)
+          {
+            auto &[bucket, slot] = last[larger(half_edges[k])];
+            if (bucket != v)
+              {
+                bucket = v;
+                slot   = slot_of(half_edges[k]);
+              }
+            first[slot_of(half_edges[k])] = slot;
+          }
       return first;
     }
   } // namespace

@@ -22,8 +22,8 @@ namespace tetradapt::mesh
 
   /**
    * Numbers the edges of @p mesh. Linear in the number of cells (edges are put
-   * into one bucket a point and sorted there), so that one point with a great
-   * many edges does no harm.
+   * into one bucket a point), so that one point with a great many edges does no
+   * harm.
    */
   EdgeTable
   build_edges(const TetMesh &mesh);
