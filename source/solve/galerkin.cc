@@ -77,6 +77,7 @@ namespace tetradapt::solve
                             tentative.rows[node].data(),
                             builder.block(column).data());
             }
+          // Not in place: g++ 12 makes wrong code for AVX-512 of a copy, zeros and sums.
           const auto &inverse = inverse_diagonal[row];
           for (std::size_t k = P.begin.back(); k < P.columns.size(); ++k)
             {
