@@ -36,7 +36,7 @@ namespace tetradapt::compare
     : shear_modulus(form.shear_modulus)
   {
     const double mu   = form.shear_modulus;
-    const double bulk = std::min(5. * mu, 1. / form.inverse_lambda + 2. / 3. * mu);
+    const double bulk = std::min(5. * mu, 1. / form.inverse_rest + form.kept_lambda + 2. / 3. * mu);
     for (unsigned int a = 0; a < 6; ++a)
       for (unsigned int b = 0; b < 6; ++b)
         {
@@ -47,7 +47,7 @@ namespace tetradapt::compare
             = .25 * (law.complementary_density(s + t) - law.complementary_density(s - t));
           const double mean    = a < 3 && b < 3 ? 1. / 3. : 0.;
           const double unit    = a == b ? (a < 3 ? 1. : .5) : 0.;
-          stiffness[a][b]      = 2. * mu * unit;
+          stiffness[a][b]      = 2. * mu * unit + 3. * form.kept_lambda * mean;
           inverse_metric[a][b] = 2. * mu * (unit - mean) + 3. * bulk * mean;
           metric[a][b]         = (unit * (a < 3 ? 1. : 4.) - mean) / (2. * mu) + mean / (3. * bulk);
         }

@@ -15,7 +15,7 @@ namespace tetradapt::compare
   namespace
   {
     /** To be raised whenever the layout below changes. */
-    constexpr std::uint32_t format_version = 3;
+    constexpr std::uint32_t format_version = 4;
     constexpr std::uint32_t byte_order     = 0x01020304;
 
     struct Header

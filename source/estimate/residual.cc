@@ -120,8 +120,8 @@ namespace tetradapt::estimate
         squares[cell] += constant * h * h / stress.materials()[cell].shear_modulus * sum * volume;
       }
 
-      /** In mixed form: int_K |div u_h - tr eps_thermal + p_h / lambda|^2 / (1/(2 mu) + 1/lambda),
-       * the energy of the volume that the cell misses. */
+      /** In mixed form: int_K |div u_h - tr eps_thermal + c p_h|^2 / (1/(2 mu + gamma) + c) with
+       * c = 1/(lambda - gamma), the energy of the volume that the cell misses. */
       void
       add_volume(const unsigned int            cell,
                  const mesh::NodalField       &u_h,
@@ -135,14 +135,15 @@ namespace tetradapt::estimate
         for (unsigned int q = 0; q < rule.points.size(); ++q)
           {
             const mesh::Barycentric &b       = rule.points[q];
-            double                   missing = form.inverse_lambda * u_h.pressure->value(cell, b);
+            double                   missing = form.inverse_rest * u_h.pressure->value(cell, b);
             for (unsigned int i = 0; i < 4; ++i)
               missing += b[i] * trace(gradients[i]);
             if (stress.has_thermal_strain())
               missing -= trace(materials.thermal_strain(region, compare::position(mesh, cell, b)));
             sum += rule.weights[q] * missing * missing;
           }
-        squares[cell] += volumes[cell] * sum / (0.5 / form.shear_modulus + form.inverse_lambda);
+        squares[cell] += volumes[cell] * sum
+                         / (1. / (2. * form.shear_modulus + form.kept_lambda) + form.inverse_rest);
       }
 
       /** The face @p local of @p cell, between it and @p neighbor. */

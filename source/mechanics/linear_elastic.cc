@@ -62,6 +62,9 @@ namespace tetradapt::mechanics
   {
     if (!(inverse_lambda >= 0.) || !std::isfinite(inverse_lambda))
       return std::nullopt;
-    return PressureForm{mu, inverse_lambda};
+    // mu was best of 0, 1/2, 1, 3/2 and 2 mu in iterations of the solver and errors together; for
+    // small lambda a half of it.
+    const double kept = inverse_lambda * mu > 0.5 ? 0.5 / inverse_lambda : mu;
+    return PressureForm{mu, kept, inverse_lambda / (1. - kept * inverse_lambda)};
   }
 } // namespace tetradapt::mechanics

@@ -25,8 +25,8 @@ namespace tetradapt::mechanics
             const unsigned int row = space.cell_node(cell, i);
             if (row >= n)
               continue;
-            compliance[row] = law.inverse_lambda;
-            weight[row]     = 0.5 / law.shear_modulus + law.inverse_lambda;
+            compliance[row] = law.inverse_rest;
+            weight[row]     = 1. / (law.shear_modulus + law.kept_lambda) + law.inverse_rest;
             for (unsigned int j = 0; j < 4; ++j)
               rows[row][space.cell_node(cell, j)] += volume * (i == j ? 0.1 : 0.05);
           }

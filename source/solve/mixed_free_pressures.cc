@@ -21,7 +21,7 @@ namespace tetradapt::solve
       std::map<int, bool> incompressible;
       for (const int region : mesh.regions)
         if (incompressible.count(region) == 0)
-          incompressible[region] = materials.pressure_form(region).inverse_lambda == 0.;
+          incompressible[region] = materials.pressure_form(region).inverse_rest == 0.;
       std::vector<unsigned int> parent(mesh.n_points(), invalid_unsigned_int);
       const auto                root = [&](unsigned int v) {
         while (parent[v] != v)
@@ -51,7 +51,7 @@ namespace tetradapt::solve
     const mesh::PressureNodes &nodes = *pressures.nodes();
     std::vector<char>          of_incompressible(nodes.size(), 0);
     for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
-      if (model.materials.pressure_form(mesh.regions[cell]).inverse_lambda == 0.)
+      if (model.materials.pressure_form(mesh.regions[cell]).inverse_rest == 0.)
         for (unsigned int i = 0; i < 4; ++i)
           of_incompressible[nodes.node(cell, i)] = 1;
 

@@ -2,6 +2,9 @@
 #include "tetradapt/solve/mixed_solver.h"
 
 #include "tetradapt/core/exceptions.h"
+#include "tetradapt/mechanics/constitutive_law.h"
+
+#include "residual_directions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,15 +13,17 @@
 namespace tetradapt::solve
 {
   scene::Scene
-  shear_scene(const scene::Scene &scene)
+  kept_scene(const scene::Scene &scene)
   {
     scene::Scene result = scene;
     result.formulation  = scene::Formulation::displacement;
     for (auto &material : result.materials)
-      {
-        material.young_modulus /= 1. + material.poisson_ratio; // 2 mu
-        material.poisson_ratio = 0.;
-      }
+      if (const auto form = mechanics::make_law(material)->pressure_form())
+        {
+          const double mu        = form->shear_modulus;
+          material.poisson_ratio = 0.5 * form->kept_lambda / (form->kept_lambda + mu);
+          material.young_modulus = 2. * mu * (1. + material.poisson_ratio);
+        }
     return result;
   }
 
@@ -28,17 +33,18 @@ namespace tetradapt::solve
      * root of the inverse of the smallest eigenvalue of multigrid, and of the Schur complement
      * with the weighted mass matrix. */
     constexpr double error_factor = 3.;
+
+    /** By how much the residual may fall before it and what the preconditioner makes of it are
+     * computed anew: steps go on with those of single precision, whose errors add up. */
+    constexpr double first_drift = 1e-3;
   } // namespace
 
   /** An iterate with its residuals, and the state of the iteration. */
   struct MixedSolver::Iterate
   {
-    Vector u, p;
-    Vector r1, r2; ///< residuals
-    /** Of A^. The multigrid's smallest eigenvalue is seldom less. */
-    double       scale      = 0.5;
+    MixedVector  x, residual, preconditioned; ///< the latter diag(A^, S^)^-1 times the residual
+    double       norm       = 0.;             ///< root of their product
     unsigned int iterations = 0;
-    double       norm       = 0.; ///< of the residuals
     bool         converged  = false;
   };
 
@@ -54,101 +60,86 @@ namespace tetradapt::solve
   }
 
   void
-  MixedSolver::set_residuals(const Vector &forces, Iterate &x) const
+  MixedSolver::set_residuals(const Vector &forces, Iterate &state) const
   {
-    model.shear.matrix().vmult(x.r1, x.u);
-    divergence.add_transposed(x.r1, x.p);
-    x.r1.sadd(-1., 1., forces);
-    Vector product(x.r2);
-    divergence.vmult(x.r2, x.u);
-    mass.vmult_compliance(product, x.p);
-    x.r2 -= product;
-    x.r2.sadd(-1., 1., volume_load);
-  }
-
-  double
-  MixedSolver::load_norm(const Vector &forces) const
-  {
-    Iterate x{forces, volume_load, forces, volume_load};
-    x.p = 0.;
-    for (unsigned int node = 0; node < model.space.n_owned_nodes(); ++node)
-      for (unsigned int c = 0; c < 3; ++c)
-        x.u.local_element(3 * node + c) = model.prescribed.values[model.space.field_node(node)][c];
-    set_residuals(forces, x);
-    model.shear.precondition(x.u, x.r1);
-    mass.precondition(x.p, x.r2);
-    return std::sqrt(x.u * x.r1 + x.p * x.r2);
+    MixedVector &r = state.residual, &z = state.preconditioned;
+    model.kept.matrix().vmult(r.u, state.x.u);
+    divergence.add_transposed(r.u, state.x.p);
+    r.u.sadd(-1., 1., forces);
+    divergence.vmult(r.p, state.x.u);
+    mass.vmult_compliance(z.p, state.x.p);
+    r.p -= z.p;
+    r.p.sadd(-1., 1., volume_load);
+    model.kept.precondition(z.u, r.u);
+    mass.precondition(z.p, r.p);
+    state.norm = std::sqrt(std::max(0., r.u * z.u + r.p * z.p));
   }
 
   void
-  MixedSolver::iterate(const Vector &forces, const double target, Iterate &x) const
+  MixedSolver::make_direction(const MixedVector &preconditioned_residual,
+                              ResidualDirection &result) const
   {
-    set_residuals(forces, x);
-    // z = P^-1 r with P the triangular preconditioner, d the direction, q = M d.
-    Vector     z1(x.u), Az(x.u), d1(x.u), Ad(x.u), q1(x.u), v1(x.u);
-    Vector     z2(x.p), Bz(x.p), d2(x.p), Bd(x.p), q2(x.p), w(x.p);
-    const auto precondition = [&](Vector &destination, const Vector &source) {
-      model.shear.precondition(destination, source);
-      destination *= 1. / x.scale;
+    MixedVector &d = result.direction, &q = result.force, &v = result.preconditioned_force;
+    d.u = preconditioned_residual.u;
+    divergence.vmult(q.p, d.u);
+    mass.precondition(d.p, q.p);
+    d.p -= preconditioned_residual.p;
+    mass.vmult_compliance(v.p, d.p);
+    q.p -= v.p;
+    model.kept.matrix().vmult(q.u, d.u);
+    divergence.add_transposed(q.u, d.p);
+    model.kept.precondition(v.u, q.u);
+    mass.precondition(v.p, q.p);
+  }
+
+  void
+  MixedSolver::iterate(const Vector &forces, const double target, Iterate &state) const
+  {
+    ResidualDirections directions;
+    double             drift = first_drift, fresh = state.norm;
+    const auto         refresh = [&] {
+      const double expected = state.norm;
+      set_residuals(forces, state);
+      fresh = state.norm;
+      if (state.norm > 1.2 * expected)
+        drift = std::max(drift, 0.1);
     };
-    precondition(z1, x.r1);
-    double before = 0.;
-    for (bool first = true;; first = false)
+    while (true)
       {
-        mass.precondition(w, x.r2);
-        const double z1_r1 = z1 * x.r1;
-        x.norm             = std::sqrt(std::max(0., x.scale * z1_r1 + w * x.r2));
-        x.converged        = x.norm <= target;
+        if (state.norm < drift * fresh || !std::isfinite(state.norm))
+          refresh();
         std::ostringstream text;
-        text << "mixed form, iteration " << x.iterations << ", residual over tolerance "
-             << x.norm / target;
+        text << "mixed form, iteration " << state.iterations << ", residual over tolerance "
+             << state.norm / target;
         log.progress(text.str());
-        if (x.converged || x.iterations >= parameters.max_iterations || !std::isfinite(x.norm))
+        state.converged = state.norm <= target;
+        if (state.converged || state.iterations >= parameters.max_iterations
+            || !std::isfinite(state.norm))
           return;
 
-        model.shear.matrix().vmult(Az, z1);
-        divergence.vmult(Bz, z1);
-        mass.precondition(z2, Bz);
-        z2 -= w;
-        const double z1_Az = z1 * Az;
-        if (!(z1_Az > z1_r1))
+        ResidualDirection &d = directions.next(state.x);
+        make_direction(state.preconditioned, d);
+        directions.orthogonalise();
+        if (!(d.square > 0.))
           {
-            // The Rayleigh quotient bounds the scale.
-            x.scale *= 0.8 * z1_Az / z1_r1;
-            return;
+            // Rounding: of no use if the residual is what it seems.
+            if (state.norm == fresh)
+              return;
+            refresh();
+            directions.clear();
+            continue;
           }
-        const double square = z1_Az - z1_r1 + z2 * Bz - z2 * x.r2;
-        const double beta   = first ? 0. : square / before;
-        before              = square;
-        const auto advance  = [&](Vector &direction, const Vector &z) {
-          if (first)
-            direction = z;
-          else
-            direction.sadd(beta, 1., z);
-        };
-        advance(d1, z1);
-        advance(d2, z2);
-        advance(Ad, Az);
-        advance(Bd, Bz);
-
-        q1 = Ad;
-        divergence.add_transposed(q1, d2);
-        mass.vmult_compliance(q2, d2);
-        q2.sadd(-1., 1., Bd);
-        precondition(v1, q1);
-        const double curvature = v1 * q1 - q1 * d1 - q2 * d2;
-        if (!(curvature > 0.))
+        MixedVector &r = state.residual, &z = state.preconditioned;
+        const double step
+          = (r.u * d.preconditioned_force.u + r.p * d.preconditioned_force.p) / d.square;
+        for (Vector MixedVector::*part : {&MixedVector::u, &MixedVector::p})
           {
-            x.scale *= 0.7;
-            return;
+            (state.x.*part).add(step, d.direction.*part);
+            (r.*part).add(-step, d.force.*part);
+            (z.*part).add(-step, d.preconditioned_force.*part);
           }
-        const double alpha = square / curvature;
-        x.u.add(alpha, d1);
-        x.p.add(alpha, d2);
-        x.r1.add(-alpha, q1);
-        x.r2.add(-alpha, q2);
-        z1.add(-alpha, v1);
-        ++x.iterations;
+        state.norm = std::sqrt(std::max(0., r.u * z.u + r.p * z.p));
+        ++state.iterations;
       }
   }
 
@@ -158,51 +149,56 @@ namespace tetradapt::solve
                      Vector              &u,
                      mesh::PressureField &pressure) const
   {
-    const double norm = load_norm(forces);
+    Iterate state{{u, volume_load}, {forces, volume_load}, {forces, volume_load}};
+    // The load is the residual where nothing moves but what is prescribed.
+    state.x.p = 0.;
+    for (unsigned int node = 0; node < model.space.n_owned_nodes(); ++node)
+      for (unsigned int c = 0; c < 3; ++c)
+        state.x.u.local_element(3 * node + c)
+          = model.prescribed.values[model.space.field_node(node)][c];
+    set_residuals(forces, state);
+    const double norm = state.norm;
     if (!std::isfinite(norm))
       throw core::NumericalError("The loads are not finite. Look at their values and at the "
                                  "material constants.");
     if (norm == 0.)
       {
-        for (unsigned int node = 0; node < model.space.n_owned_nodes(); ++node)
-          for (unsigned int c = 0; c < 3; ++c)
-            u.local_element(3 * node + c)
-              = model.prescribed.values[model.space.field_node(node)][c];
+        u = state.x.u;
         std::fill(pressure.values.begin(), pressure.values.end(), 0.);
         return {0, 0, 0., "nothing to solve: no load"};
       }
-    Iterate x{u, volume_load, forces, volume_load};
     for (unsigned int node = 0; node < pressures.n_owned_nodes(); ++node)
-      x.p.local_element(node) = pressure.values[pressures.field_node(node)];
+      state.x.p.local_element(node) = pressure.values[pressures.field_node(node)];
+    Vector difference(u);
+    difference -= state.x.u;
+    if (!difference.all_zero() || !state.x.p.all_zero())
+      {
+        state.x.u = u;
+        set_residuals(forces, state);
+      }
     const double tolerance = stop.residual > 0. ? stop.residual : parameters.tolerance;
     const double target    = std::max(tolerance * norm, stop.algebraic_error / error_factor);
-    // A restart takes the scale down by a fifth or more; and the preconditioner may be of single
-    // precision, so that what the steps say of the residual is checked.
-    for (unsigned int restart = 0; restart < 40; ++restart)
-      {
-        const unsigned int before = x.iterations;
-        iterate(forces, target, x);
-        if ((x.converged && x.iterations == before) || x.iterations >= parameters.max_iterations
-            || !std::isfinite(x.norm))
-          break;
-      }
-    if (!x.converged)
+    iterate(forces, target, state);
+    if (!state.converged)
       {
         std::ostringstream message;
-        message << "The iteration of the mixed form did not converge: after " << x.iterations
-                << " iterations the residual is " << x.norm / target
+        message << "The iteration of the mixed form did not converge: after " << state.iterations
+                << " iterations the residual is " << state.norm / target
                 << " times the allowed one. Look for materials of very different stiffness or very "
                    "flat elements, or raise Solver/Maximum iterations.";
         throw core::NumericalError(message.str());
       }
-    Vector product(x.p);
+    Vector product(state.x.p);
     for (const Vector &constant : free_pressures)
       {
         mass.vmult(product, constant);
-        x.p.add(-(product * x.p) / (product * constant), constant);
+        state.x.p.add(-(product * state.x.p) / (product * constant), constant);
       }
-    u = x.u;
-    pressures.gather(x.p, pressure.values);
-    return {x.iterations, x.iterations, error_factor * x.norm, "mixed form, p-multigrid on AMG"};
+    u = state.x.u;
+    pressures.gather(state.x.p, pressure.values);
+    return {state.iterations,
+            state.iterations,
+            error_factor * state.norm,
+            "mixed form, p-multigrid on AMG"};
   }
 } // namespace tetradapt::solve

@@ -44,14 +44,14 @@ namespace tetradapt::solve
       : materials(materials), mesh(std::move(mesh_pointer)), degree(degree), log(caller_log),
         edges(edges_for(*mesh, degree)),
         prescribed(mechanics::prescribe(scene.supports, *mesh, edges.get())),
-        shear(materials.is_mixed()
-                ? std::make_unique<mechanics::MaterialMap>(shear_scene(scene), *mesh)
-                : nullptr),
-        partition(*mesh, communicator), tangents(shear ? *shear : materials, *mesh)
+        kept(materials.is_mixed()
+               ? std::make_unique<mechanics::MaterialMap>(kept_scene(scene), *mesh)
+               : nullptr),
+        partition(*mesh, communicator), tangents(kept ? *kept : materials, *mesh)
     {
       space = std::make_unique<DisplacementSpace>(partition, degree, edges.get());
       log.progress("assembling " + std::to_string(space->n_dofs()) + " unknowns");
-      forces = mechanics::nodal_forces(scene, shear ? *shear : materials, *space);
+      forces = mechanics::nodal_forces(scene, kept ? *kept : materials, *space);
       solver = std::make_unique<LinearSolver>(LinearModel{partition, *space, tangents, prescribed},
                                               scene.solver,
                                               log);
@@ -86,8 +86,8 @@ namespace tetradapt::solve
     core::Log                              log;
     std::shared_ptr<const mesh::EdgeTable> edges;
     mechanics::PrescribedDisplacement      prescribed;
-    /** Mixed form only: its stiffness is that of the shear alone. */
-    std::unique_ptr<mechanics::MaterialMap> shear;
+    /** Mixed form only: the materials without what the pressure carries. */
+    std::unique_ptr<mechanics::MaterialMap> kept;
     mechanics::MeshPartition                partition;
     mechanics::TangentField                 tangents;
     std::unique_ptr<DisplacementSpace>      space;

@@ -129,6 +129,32 @@ namespace
           near(table_of("held_by_a_corner", "--set Degree=1").last("energy"), direct, 1e-9));
   }
 
+  /** Poisson ratios up to 0.5 in mixed form: a known energy, bad cells and other units. */
+  void
+  incompressible()
+  {
+    for (const std::string nu : {"1e-3", "0.49999", "0.5"})
+      for (const std::string solver : {"cg", "direct"})
+        check("incompressible, " + nu + ", " + solver,
+              near(table_of("incompressible",
+                            "--set 'Materials/bar/Poisson ratio=" + nu
+                              + "' --set Solver/Type=" + solver)
+                     .last("energy"),
+                   0.002,
+                   1e-8));
+    const std::string mixed
+      = "--set Formulation=mixed --set 'Estimation/Estimators=spr, averaging, residual' --set "
+        "'Materials/beam/Poisson ratio=0.5'";
+    const Table plain = table_of("cantilever", mixed), nano = table_of("nanometres", mixed);
+    bool        same = plain.n_rows() > 0;
+    for (const char *name :
+         {"relative_estimate_spr", "relative_estimate_averaging", "relative_estimate_residual"})
+      same = same && near(nano.last(name), plain.last(name), 1e-6);
+    check("incompressible, 1e-9 times as large",
+          same && near(1e27 * nano.last("energy"), plain.last("energy"), 1e-8)
+            && near(1e9 * nano.last("goal_tip"), plain.last("goal_tip"), 1e-8));
+  }
+
   void
   limits()
   {
@@ -220,6 +246,7 @@ main()
   meshes();
   bad_cells();
   contrasts();
+  incompressible();
   limits();
   few_elements();
 }

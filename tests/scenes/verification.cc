@@ -64,6 +64,13 @@ namespace
     within("rate", rate(linear, 2), 0.28, 0.37);
     const Table quadratic = solve("lame_sphere_p2", "--set 'Adaptivity/Maximum tetrahedra=5000'");
     within("relative energy error", quadratic.last("relative_energy_error"), 0.005, 0.03);
+    const Table mixed
+      = solve("lame_sphere_nu5_mixed",
+              "--set Adaptivity/Strategy=uniform --set 'Adaptivity/Maximum cycles=3'");
+    // As in displacement form with nu = 0.3; N^-2/3.
+    within("relative energy error", mixed.last("relative_energy_error"), 0.030, 0.033);
+    within("rate", rate(mixed, 1), 0.6, 0.8);
+    within("iterations", mixed.last("iterations"), 15, 35);
   }
 
   void

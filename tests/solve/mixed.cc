@@ -47,17 +47,28 @@ namespace
     return largest / scale;
   }
 
-  /** Largest distance of the pressures in the cells of @p region from @p exact. */
+  /** Largest distance of -lambda (tr eps - @p free), with the volume's change @p free that needs
+   * no stress, from @p exact at the vertices of the cells of @p region. The unknown is that part
+   * of it that the law does not keep in displacement form. */
   double
-  pressure_error(const mesh::NodalField &u, const int region, const double exact)
+  pressure_error(const scene::Scene     &scene,
+                 const mesh::NodalField &u,
+                 const int               region,
+                 const double            exact,
+                 const double            free = 0.)
   {
-    double largest = 0.;
+    const double kept = mechanics::MaterialMap(scene, u.mesh()).pressure_form(region).kept_lambda;
+    double       largest = 0.;
     for (unsigned int cell = 0; cell < u.mesh().n_cells(); ++cell)
       if (u.mesh().regions[cell] == region)
         for (unsigned int i = 0; i < 4; ++i)
-          largest
-            = std::max(largest,
-                       std::abs(u.pressure->values[u.pressure->nodes->node(cell, i)] - exact));
+          {
+            mesh::Barycentric b{};
+            b[i] = 1.;
+            const double p
+              = u.pressure->value(cell, b) - kept * (trace(u.gradient(cell, b)) - free);
+            largest = std::max(largest, std::abs(p - exact));
+          }
     return largest;
   }
 
@@ -78,7 +89,7 @@ namespace
                 return Tensor<1, 3>({-0.05 * nu * p[0], -0.05 * nu * p[1], 0.05 * p[2]});
               }) < 1e-8);
         check("  pressure",
-              pressure_error(*solution.displacement, 0, -0.1 * nu / (1. + nu)) < 1e-8);
+              pressure_error(scene, *solution.displacement, 0, -0.1 * nu / (1. + nu)) < 1e-8);
         check("  energy", solution.energy, 0.005, 0.005, 1e-8);
         check("  work", solution.external_work, 0.005, 0.005, 1e-8);
         check("  twice the stored energy", 2. * solution.strain_energy, 0.005, 0.005, 1e-8);
@@ -104,8 +115,10 @@ namespace
                                 = p[0] < 1. ? p[0] / 6. : 1. / 6. + 0.1 * (p[0] - 1.);
                               return Tensor<1, 3>({along, -0.05 * p[1], -0.05 * p[2]});
                             }) < 1e-8);
-    check("  pressure in the one", pressure_error(*solution.displacement, 0, -0.03 / 1.3) < 1e-8);
-    check("  and in the other", pressure_error(*solution.displacement, 1, -0.05 / 1.5) < 1e-8);
+    check("  pressure in the one",
+          pressure_error(scene, *solution.displacement, 0, -0.03 / 1.3) < 1e-8);
+    check("  and in the other",
+          pressure_error(scene, *solution.displacement, 1, -0.05 / 1.5) < 1e-8);
   }
 
   /** Free expansion of an incompressible body: no stress. */
@@ -122,7 +135,7 @@ namespace
     check("  displacement", largest_error(*solution.displacement, [](const Point<3> &p) {
                               return 0.02 * Tensor<1, 3>(p);
                             }) < 1e-8);
-    check("  pressure", pressure_error(*solution.displacement, 0, 0.) < 1e-8);
+    check("  pressure", pressure_error(scene, *solution.displacement, 0, 0., 0.06) < 1e-8);
     check("  stored energy", solution.strain_energy < 1e-12);
   }
 
@@ -138,14 +151,14 @@ namespace
     check("  displacement", largest_error(*solution.displacement, [](const Point<3> &p) {
                               return Tensor<1, 3>({0.1 * p[0], 0.1 * p[1], -0.2 * p[2]});
                             }) < 1e-8);
-    check("  pressure of mean zero", pressure_error(*solution.displacement, 0, 0.) < 1e-8);
+    check("  pressure of mean zero", pressure_error(scene, *solution.displacement, 0, 0.) < 1e-8);
     scene.supports = {support("all", "1", "xyz", {{"0.1*x", "0.1*y", "0.1*z"}})};
     print_refusal("  blown up", [&] { solve_scene(scene, body, 2); });
     // A little compressible: p = -lambda tr eps.
     scene.materials[0].poisson_ratio = 0.499;
     const double lambda              = 2. * 0.499 / (1.499 * 0.002);
     check("  pressure with nu = 0.499",
-          pressure_error(*solve_scene(scene, body, 2).displacement, 0, -0.3 * lambda)
+          pressure_error(scene, *solve_scene(scene, body, 2).displacement, 0, -0.3 * lambda)
             < 1e-6 * lambda);
   }
 

@@ -19,7 +19,8 @@ namespace tetradapt::compare
    * A law's tangent at rest and its inverse, as matrices between stresses and
    * strains whose shears are the engineering ones (2 eps_xy).
    *
-   * In mixed form the stiffness is that at a given pressure, 2 mu, and the compliance that of
+   * In mixed form the stiffness is that at a given pressure, of 2 mu and gamma
+   * (mechanics::PressureForm), and the compliance that of
    * the law (zero for a pressure that changes no volume).
    */
   struct ElasticMatrices
@@ -95,8 +96,7 @@ namespace tetradapt::compare
    * rest. Without thermal strain it is constant in a cell for degree 1 and linear for
    * degree 2: it is computed once, at no or at four vertices of each cell.
    *
-   * Of a solution in mixed form it is 2 mu (eps(u_h) - eps_thermal) - p_h I, and C below is
-   * 2 mu.
+   * Of a solution in mixed form p_h I is subtracted from it, and C is that at a given pressure.
    */
   class CellStress
   {

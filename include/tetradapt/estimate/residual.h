@@ -22,8 +22,9 @@ namespace tetradapt::estimate
    * materials the stiffer one decides, which makes the bound independent of their
    * contrast (Petzoldt, Adv. Comp. Math. 16, 2002). mu is the shear modulus.
    *
-   * In mixed form Q_F is that of 2 mu, and eta_K^2 has one more term, the square of the volume's
-   * residual: int_K |div u_h - tr eps_thermal + p_h / lambda|^2 / (1/(2 mu) + 1/lambda).
+   * In mixed form Q_F is that of mu and gamma (mechanics::PressureForm), and eta_K^2 has one more
+   * term, the square of the volume's residual:
+   * int_K |div u_h - tr eps_thermal + c p_h|^2 / (1/(2 mu + gamma) + c), c = 1/(lambda - gamma).
    *
    * It bounds the energy norm of the error from above and below up to constants that
    * depend on the shape of the cells only; they are not known, and the index of

@@ -17,19 +17,25 @@ namespace tetradapt::mechanics
   using dealii::Tensor;
 
   /**
-   * An isotropic linear law written with the pressure p = -lambda tr(strain) as an unknown of
-   * its own: stress = 2 mu strain - p I, where p / lambda + tr(strain) = 0 holds weakly.
+   * An isotropic linear law written with a pressure as an unknown of its own, which carries
+   * what Lame's lambda exceeds a moderate gamma by: p = -(lambda - gamma) tr(strain), so that
+   * stress = 2 mu strain + gamma tr(strain) I - p I, where p / (lambda - gamma) + tr(strain) = 0
+   * holds weakly. The part with gamma makes the equations easier to solve ("grad-div
+   * stabilisation"; see doc/mixed_form.md).
    */
   struct PressureForm
   {
-    double shear_modulus;  ///< mu
-    double inverse_lambda; ///< 1 / lambda with lambda the first Lame parameter; 0: incompressible
+    double shear_modulus; ///< mu
+    double kept_lambda;   ///< gamma, positive and below lambda
+    double inverse_rest;  ///< 1 / (lambda - gamma) with lambda the first Lame parameter;
+                          ///< 0: incompressible
 
     /** Stress at displacement gradient @p G, or of a strain, and pressure @p p. */
     SymmetricTensor<2, 3>
     stress(const Tensor<2, 3> &G, double p) const
     {
-      return 2. * shear_modulus * symmetrize(G) - p * dealii::unit_symmetric_tensor<3>();
+      return 2. * shear_modulus * symmetrize(G)
+             + (kept_lambda * trace(G) - p) * dealii::unit_symmetric_tensor<3>();
     }
   };
 

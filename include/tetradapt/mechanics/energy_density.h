@@ -8,9 +8,9 @@ namespace tetradapt::mechanics
 {
   /**
    * The density of the energy norm's square of solutions in one region: eps : C : eps in
-   * displacement form. In mixed form it is s : C^-1 : s with the stress s = 2 mu eps - p I, which
-   * is the same where p = -lambda tr eps and stays finite where lambda does not. There a
-   * pressure alone has no energy.
+   * displacement form. In mixed form it is s : C^-1 : s with the stress s of
+   * PressureForm, which is the same where the pressure fits and stays finite where lambda does not.
+   * There a pressure alone has no energy.
    */
   class EnergyDensity
   {

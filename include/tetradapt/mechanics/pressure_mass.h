@@ -21,13 +21,13 @@ namespace tetradapt::mechanics
     void
     vmult(Vector &q, const Vector &p) const;
 
-    /** q = (1/lambda) M p. Collective. */
+    /** q = 1/(lambda - gamma) M p, see PressureForm. Collective. */
     void
     vmult_compliance(Vector &q, const Vector &p) const;
 
-    /** p = a fixed symmetric approximation of the inverse of (1/(2 mu) + 1/lambda) M times
-     * q: Chebyshev's iteration with the diagonal, on the eigenvalues from 1/2 to 5/2 that M has
-     * with its diagonal on tetrahedra of any shape (A. Wathen, IMA J. Numer. Anal. 7, 1987).
+    /** p = a fixed symmetric approximation of the inverse of (1/(mu + gamma) + 1/(lambda - gamma))
+     * M times q: Chebyshev's iteration with the diagonal, on the eigenvalues from 1/2 to 5/2 that M
+     * has with its diagonal on tetrahedra of any shape (A. Wathen, IMA J. Numer. Anal. 7, 1987).
      * Collective. */
     void
     precondition(Vector &p, const Vector &q) const;
@@ -41,7 +41,7 @@ namespace tetradapt::mechanics
   };
 
   /** -int q tr eps_thermal for the pressures q of the owned nodes: the right-hand side of
-   * -int q (div u + p/lambda) for the thermal strain. */
+   * -int q (div u + p/(lambda - gamma)) for the thermal strain. */
   Vector
   thermal_volume_load(const PressureSpace &space, const MaterialMap &materials);
 } // namespace tetradapt::mechanics

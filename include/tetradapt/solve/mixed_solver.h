@@ -11,12 +11,16 @@
 namespace tetradapt::solve
 {
   /**
-   * @p scene with each material replaced by one of the same shear modulus and nu = 0, in
-   * displacement form: its stiffness int 2 mu eps : eps is what the mixed form has besides the
-   * pressure, so that assembly, thermal forces and multigrid serve both.
+   * @p scene with each material replaced by one of the same shear modulus and with the gamma of
+   * mechanics::PressureForm as Lame's first constant, in displacement form: its stiffness is what
+   * the mixed form has besides the pressure, so that assembly, thermal forces and multigrid serve
+   * both.
    */
   scene::Scene
-  shear_scene(const scene::Scene &scene);
+  kept_scene(const scene::Scene &scene);
+
+  struct MixedVector;
+  struct ResidualDirection;
 
   /** What the mixed form is made of. */
   struct MixedModel
@@ -24,23 +28,22 @@ namespace tetradapt::solve
     const mechanics::DisplacementSpace      &space; ///< of degree 2
     const mechanics::MaterialMap            &materials;
     const mechanics::PrescribedDisplacement &prescribed;
-    const LinearSolver                      &shear; ///< of shear_scene()
+    const LinearSolver                      &kept; ///< of kept_scene()
   };
 
   /**
    * Solves the equations of the mixed form with the elements of Taylor and Hood (see
-   * doc/mixed_form.md)
+   * doc/mixed_form.md and mechanics::PressureForm)
    *
-   *   A u + B^T p = f,   A = int 2 mu eps : eps,      B = -int q div u,
-   *   B u - C p   = g,   C = int (1/lambda) p q,      g = -int q tr eps_thermal,
+   *   A u + B^T p = f,   A = int 2 mu eps : eps + gamma div div,   B = -int q div u,
+   *   B u - C p   = g,   C = int 1/(lambda - gamma) p q,           g = -int q tr eps_thermal,
    *
-   * by conjugate gradients in the inner product of Bramble and Pasciak (Math. Comp. 50, 1988):
-   * the block triangular preconditioner of A^ (multigrid for A, scaled to be less than A) and
-   * S^ (the mass matrix of the pressure weighted with 1/(2 mu) + 1/lambda, spectrally
-   * equivalent to the Schur complement C + B A^-1 B^T for every lambda) makes the matrix
-   * symmetric and positive in the inner product of diag(A - A^, S^). One product with A, B and
-   * B^T and one step of each preconditioner an iteration; their number is bounded for all
-   * meshes and all lambda.
+   * by truncated generalised conjugate residuals (Eisenstat, Elman and Schultz, SIAM J. Numer.
+   * Anal. 20, 1983), which minimise (r, D r) with D the inverse of diag(A^, S^): A^ is multigrid
+   * for A and S^ the mass matrix of the pressure weighted with 1/(mu + gamma) + 1/(lambda -
+   * gamma), spectrally equivalent to the Schur complement C + B A^-1 B^T for every lambda. Their
+   * block triangular preconditioner gives the directions. One product with A, B and B^T, one step
+   * of A^ and two of S^ an iteration; their number is bounded for all meshes and all lambda.
    */
   class MixedSolver
   {
@@ -75,16 +78,16 @@ namespace tetradapt::solve
 
   private:
     struct Iterate;
-    /** Sets the residuals of an iterate. */
+    /** Sets the residuals of an iterate, what the preconditioner makes of them, and the norm. */
     void
-    set_residuals(const Vector &forces, Iterate &iterate) const;
-    /** The norm of the residual where nothing moves but what is prescribed. */
-    double
-    load_norm(const Vector &forces) const;
-    /** Conjugate gradients from the iterate on. Ends early, with a smaller scale of A^, where
-     * that turns out not to be less than A. */
+    set_residuals(const Vector &forces, Iterate &state) const;
+    /** The block triangular preconditioner's direction, from diag(A^, S^)^-1 times the residual,
+     * with its forces. */
     void
-    iterate(const Vector &forces, double target, Iterate &iterate) const;
+    make_direction(const MixedVector &preconditioned_residual, ResidualDirection &result) const;
+    /** Iterates until the norm is at most @p target, at most as often as the parameters allow. */
+    void
+    iterate(const Vector &forces, double target, Iterate &state) const;
     /** Finds the pressures that move nothing, one for each incompressible part whose boundary
      * is held, and makes the equations solvable. */
     void
