@@ -32,7 +32,7 @@ string(REGEX REPLACE "-O[0-9]" "-O3" DEAL_II_CXX_FLAGS_RELEASE "${DEAL_II_CXX_FL
 string(REGEX REPLACE "-fuse-ld=[a-z]+" "" DEAL_II_LINKER_FLAGS "${DEAL_II_LINKER_FLAGS}")
 if(CMAKE_BUILD_TYPE STREQUAL "Release")
   # A program that exports all its names takes longer to start; only the backtraces of
-  # deal.II's assertions want them, and those are not compiled here.
+  # deal.II's exceptions would show them, and the user sees one message instead.
   string(REPLACE "-rdynamic" "" DEAL_II_LINKER_FLAGS "${DEAL_II_LINKER_FLAGS}")
 endif()
 find_program(TETRADAPT_MOLD mold)

@@ -11,6 +11,12 @@ if(TETRADAPT_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${TETRADAPT_CCACHE})
 endif()
 
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 12)
+  message(FATAL_ERROR
+    "g++ ${CMAKE_CXX_COMPILER_VERSION} is too old: 12 or later is needed (Debian 12 has it). "
+    "Name another one with -DCMAKE_CXX_COMPILER=...")
+endif()
+
 set(_own_flags -Wall -Wextra)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   list(APPEND _own_flags $<$<COMPILE_LANGUAGE:CXX>:-fpch-preprocess>)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The part of the driver that makes one mesh from another.
 #include "tetradapt/adapt/driver.h"
+#include "tetradapt/compare/stress_difference.h"
 #include "tetradapt/compare/transfer.h"
 
 #include <algorithm>
@@ -26,16 +27,6 @@ namespace tetradapt::adapt
       return parameters;
     }
 
-    /** The root of the sum of squares. */
-    double
-    norm(const std::vector<double> &indicators)
-    {
-      double squares = 0.;
-      for (const double indicator : indicators)
-        squares += indicator * indicator;
-      return std::sqrt(squares);
-    }
-
     /** The factor by which the error falls: as the size field foretells, but not less than
      * the number of tetrahedra leads one to expect. */
     double
@@ -46,7 +37,7 @@ namespace tetradapt::adapt
     {
       const double by_number = std::min(1., std::pow(growth, -(degree / 3.)));
       return field.predicted_error > 0.
-               ? std::min(by_number, field.predicted_error / norm(indicators))
+               ? std::min(by_number, field.predicted_error / compare::root_of_squares(indicators))
                : by_number;
     }
 
@@ -96,6 +87,7 @@ namespace tetradapt::adapt
       const auto scope = timer.scope("mesh");
       use(mesh_maker.uniform(*mesh, edges_of(*cycle.solution.displacement)));
     }
+    foretold_reduction = 0.;
     predict_error(cycle.record, std::pow(0.5, scene.degree));
     prepare_start(cycle);
   }
@@ -124,7 +116,7 @@ namespace tetradapt::adapt
     const unsigned int           old_tets = mesh->n_cells();
     const compare::PointLocator &locator  = cycle.comparison->locator();
     foretold_reduction                    = field.predicted_reduction;
-    foretold_from                         = norm(cycle.indicators);
+    foretold_from                         = compare::root_of_squares(cycle.indicators);
     if (anew)
       {
         const mesh::EdgeTable *edges = edges_of(*cycle.solution.displacement);
@@ -146,7 +138,9 @@ namespace tetradapt::adapt
     SizeField field;
     if (foretold_reduction > 0.)
       reduction_power
-        = next_reduction_power(foretold_reduction, norm(cycle.indicators) / foretold_from);
+        = next_reduction_power(foretold_reduction,
+                               compare::root_of_squares(cycle.indicators) / foretold_from,
+                               reduction_power);
     {
       const auto scope = timer.scope("marking");
       in_cycle(cycle.record.cycle).progress("marking and sizing");

@@ -91,10 +91,10 @@ namespace tetradapt::adapt
 
 
   double
-  next_reduction_power(const double predicted, const double obtained)
+  next_reduction_power(const double predicted, const double obtained, const double last)
   {
-    if (!(predicted > 0.) || !(predicted < 1.) || !(obtained > 0.))
-      return 1.;
+    if (!(predicted > 0.) || !(predicted < 0.8) || !(obtained > 0.))
+      return last;
     return std::clamp(std::log(obtained) / std::log(predicted), 0.3, 1.2);
   }
 

@@ -156,15 +156,13 @@ namespace tetradapt::adapt
   double
   SizePrediction::reduction() const
   {
-    const double largest = *std::max_element(indicators.begin(), indicators.end());
-    double       sum = 0., present = 0.;
+    double sum = 0.;
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
       {
-        const double e = indicators[c] / largest;
-        present += e * e;
-        sum += e * e * std::pow(n_pieces(c), -2. * options.rate / 3.);
+        const double part = indicators[c] / present_error;
+        sum += part * part * std::pow(n_pieces(c), -2. * options.rate / 3.);
       }
-    return std::sqrt(sum / present);
+    return std::sqrt(sum);
   }
 
 

@@ -4,6 +4,7 @@
 #include "tetradapt/core/clones.h"
 
 #include <cmath>
+#include <stdexcept>
 
 namespace tetradapt::compare
 {
@@ -99,6 +100,8 @@ namespace tetradapt::compare
                                          const TetQuadrature   &rule)
     : mesh(mesh), stress(stress), recovered(recovered), linear(recovered.degree() == 1)
   {
+    if (rule.points.size() > n_vectors * core::n_lanes)
+      throw std::invalid_argument("RecoveryDifference: a rule of more than 16 points");
     for (unsigned int q = 0; q < n_vectors * core::n_lanes; ++q)
       {
         const bool         used = q < rule.points.size();

@@ -263,7 +263,7 @@ namespace tetradapt::solve
                         static_cast<Number>(factor),
                         b,
                         b,
-                        static_cast<Number *>(nullptr),
+                        d, // the residual: not written
                         d,
                         x);
   }

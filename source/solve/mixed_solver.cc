@@ -72,7 +72,8 @@ namespace tetradapt::solve
     r.p.sadd(-1., 1., volume_load);
     model.kept.precondition(z.u, r.u);
     mass.precondition(z.p, r.p);
-    state.norm = std::sqrt(std::max(0., r.u * z.u + r.p * z.p));
+    // A sum that is negative, from a cycle that is not positive, becomes NaN, as one of NaN is.
+    state.norm = std::sqrt(r.u * z.u + r.p * z.p);
   }
 
   void
@@ -138,7 +139,9 @@ namespace tetradapt::solve
             (r.*part).add(-step, d.force.*part);
             (z.*part).add(-step, d.preconditioned_force.*part);
           }
-        state.norm = std::sqrt(std::max(0., r.u * z.u + r.p * z.p));
+        const double square = r.u * z.u + r.p * z.p;
+        // Rounding alone may make it negative here, where only differences are added up.
+        state.norm = square < 0. ? 0. : std::sqrt(square);
         ++state.iterations;
       }
   }
@@ -161,6 +164,9 @@ namespace tetradapt::solve
     if (!std::isfinite(norm))
       throw core::NumericalError("The loads are not finite. Look at their values and at the "
                                  "material constants.");
+    if (norm == 0. && !(state.residual.u.all_zero() && state.residual.p.all_zero()))
+      throw core::NumericalError("The loads are so small that their squares leave the range of "
+                                 "double precision. Choose other units.");
     if (norm == 0.)
       {
         u = state.x.u;

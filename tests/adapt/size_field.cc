@@ -226,9 +226,10 @@ tolerance()
       std::cout << "slack " << slack << ": decided by it " << field.tolerance_bound << ", growth "
                 << close(field.predicted_tets / n, slack < 1.4 ? 8. : std::pow(0.45, -3.)) << '\n';
     }
-  std::cout << "power after 0.25 instead of 0.5: " << adapt::next_reduction_power(0.5, 0.25)
-            << ", 0.5 instead of 0.25: " << adapt::next_reduction_power(0.25, 0.5)
-            << ", a larger error: " << adapt::next_reduction_power(0.25, 2.) << '\n';
+  std::cout << "power after 0.25 instead of 0.5: " << adapt::next_reduction_power(0.5, 0.25, 0.7)
+            << ", 0.5 instead of 0.25: " << adapt::next_reduction_power(0.25, 0.5, 0.7)
+            << ", a larger error: " << adapt::next_reduction_power(0.25, 2., 0.7)
+            << ", a small step: " << adapt::next_reduction_power(0.9, 0.99, 0.7) << '\n';
 }
 
 void

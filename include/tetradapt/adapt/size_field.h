@@ -104,9 +104,10 @@ namespace tetradapt::adapt
 
   /** The power to pass as reduction_power in the next cycle, after the error became
    * @p obtained times what it was where the size field foretold @p predicted times (its
-   * predicted_reduction): the quotient of their logarithms, within [0.3, 1.2]. */
+   * predicted_reduction): the quotient of their logarithms, within [0.3, 1.2]. Steps that
+   * foretold less than a fifth teach nothing certain: the answer is then @p last. */
   double
-  next_reduction_power(double predicted, double obtained);
+  next_reduction_power(double predicted, double obtained, double last);
 
   /** Edge length of the regular tetrahedron of volume @p volume, (6 sqrt(2) V)^(1/3). */
   double

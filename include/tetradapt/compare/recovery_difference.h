@@ -19,7 +19,7 @@ namespace tetradapt::compare
     /**
      * Keeps references.
      * @param stress without thermal strain.
-     * @param rule with at most 16 points.
+     * @param rule with at most 16 points; more throw std::invalid_argument.
      */
     RecoveryDifference(const mesh::TetMesh   &mesh,
                        const CellStress      &stress,

@@ -45,8 +45,8 @@ namespace tetradapt::solve
     void
     start(double factor, const Number *b, Number *d, Number *x) const;
 
-    /** r = from - product; d = keep d + factor D^-1 r; x += d. @p from may be @p r. The last
-     * step changes x only. */
+    /** r = from - product; d = keep d + factor D^-1 r; x += d. @p from may be @p r. After the
+     * last step r and d are of no use. */
     void
     step(const JacobiStep &step,
          const Number     *from,
