@@ -158,16 +158,20 @@ namespace
   void
   limits()
   {
-    for (const std::string load : {"1e150", "1e-150", "1e-300", "1e300"})
-      for (const std::string solver : {"cg", "direct"})
-        {
-          const auto result = run("--quiet --set Degree=1 --set 'Loads/tip/Value=0; 0; " + load
-                                  + "' --set Solver/Type=" + solver + " --output-directory l "
-                                  + stability("cantilever"));
-          check("a load of " + load + ", " + solver + ": refused",
-                result.code == 1
-                  && (contains(result.err, "units") || contains(result.err, "are not finite")));
-        }
+    const std::string mixed = " --set Degree=2 --set Formulation=mixed --set "
+                              "Estimation/Estimators=spr --set Adaptivity/Driver=spr";
+    for (const std::string &form : {std::string(" --set Degree=1"), mixed})
+      for (const std::string load : {"1e150", "1e-150", "1e-300", "1e300"})
+        for (const std::string solver : {"cg", "direct"})
+          {
+            const auto result = run("--quiet" + form + " --set 'Loads/tip/Value=0; 0; " + load
+                                    + "' --set Solver/Type=" + solver + " --output-directory l "
+                                    + stability("cantilever"));
+            check("a load of " + load + ", " + solver + (form == mixed ? ", mixed" : "")
+                    + ": refused",
+                  result.code == 1
+                    && (contains(result.err, "units") || contains(result.err, "are not finite")));
+          }
     const auto modulus
       = run("--quiet --set 'Materials/beam/Young modulus=1e-60' --output-directory l "
             + stability("cantilever"));
