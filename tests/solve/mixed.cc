@@ -166,7 +166,7 @@ namespace
   iterations()
   {
     const auto body = box(Point<3>(5, 1, 1), {{15, 3, 3}}, 0.2, 2.5);
-    double     work = 0.;
+    double     work = 0., first = 0.;
     for (const double nu : {0.3, 0.49, 0.49999, 0.5})
       {
         scene::Scene scene     = make_scene(nu);
@@ -174,9 +174,12 @@ namespace
         scene.supports         = {support("wall", "x < 1e-9", "xyz", {{"0", "0", "0.001*y"}})};
         scene.loads = {load("tip", LoadType::traction, "x > 5-1e-9", {{"0", "0", "-0.001"}})};
         const auto solution = solve_scene(scene, body, 2);
-        const bool few      = solution.iterations >= 10 && solution.iterations <= 65;
-        std::cout << "nu = " << nu << ": iterations between 10 and 65: "
+        const bool few      = solution.iterations >= 12 && solution.iterations <= 24;
+        std::cout << "nu = " << nu << ": iterations between 12 and 24: "
                   << (few ? "yes" : "NO, " + std::to_string(solution.iterations)) << '\n';
+        if (nu == 0.3)
+          first = solution.iterations;
+        check("  at most 1.5 times those of 0.3", solution.iterations <= 1.5 * first);
         if (nu == 0.49999)
           work = solution.external_work;
         if (nu == 0.5)
