@@ -77,7 +77,8 @@ namespace tetradapt::solve
                             tentative.rows[node].data(),
                             builder.block(column).data());
             }
-          // Not in place: g++ 12 makes wrong code for AVX-512 of a copy, zeros and sums.
+          // Not in place: g++ 12 made wrong code for AVX-512 of a copy, zeros and sums
+          // (tests/solve/galerkin.cc compares with dense matrices).
           const auto &inverse = inverse_diagonal[row];
           for (std::size_t k = P.begin.back(); k < P.columns.size(); ++k)
             {
