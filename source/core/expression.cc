@@ -2,6 +2,8 @@
 #include "tetradapt/core/expression.h"
 
 #include "tetradapt/core/exceptions.h"
+#include "tetradapt/core/expression_tokens.h"
+#include "tetradapt/core/selectors.h"
 
 #include <muParser.h>
 
@@ -43,6 +45,38 @@ namespace tetradapt::core
       return std::fmod(value, divisor);
     }
 
+    // The selectors, after the point.
+    double
+    box(double x, double y, double z, double a, double b, double c, double d, double e, double f)
+    {
+      return in_box({x, y, z}, {a, b, c}, {d, e, f}) ? 1. : 0.;
+    }
+    double
+    sphere(double x, double y, double z, double a, double b, double c, double radius)
+    {
+      return in_sphere({x, y, z}, {a, b, c}, radius) ? 1. : 0.;
+    }
+    double
+    cylinder(double x,
+             double y,
+             double z,
+             double a,
+             double b,
+             double c,
+             double d,
+             double e,
+             double f,
+             double radius)
+    {
+      return in_cylinder({x, y, z}, {a, b, c}, {d, e, f}, radius) ? 1. : 0.;
+    }
+    double
+    half_space(
+      double x, double y, double z, double a, double b, double c, double d, double e, double f)
+    {
+      return in_half_space({x, y, z}, {a, b, c}, Point<3>(d, e, f)) ? 1. : 0.;
+    }
+
     void
     define_names(mu::Parser &parser)
     {
@@ -54,6 +88,10 @@ namespace tetradapt::core
       parser.DefineFun("ceil", round_up);
       parser.DefineFun("mod", remainder_of);
       parser.DefineInfixOprt("!", negate);
+      parser.DefineFun("box", box);
+      parser.DefineFun("sphere", sphere);
+      parser.DefineFun("cylinder", cylinder);
+      parser.DefineFun("half_space", half_space);
     }
   } // namespace
 
@@ -68,13 +106,14 @@ namespace tetradapt::core
     {
       if (text.find_first_not_of(" \t\n\r") == std::string::npos)
         throw InputError(what + ": the expression is empty. Give a function of x, y, z and t.");
+      check_expression_syntax(text, what);
       try
         {
           define_names(parser);
           const char *names[] = {"x", "y", "z", "t"};
           for (unsigned int i = 0; i < 4; ++i)
             parser.DefineVar(names[i], &variables[i]);
-          parser.SetExpr(text);
+          parser.SetExpr(with_selector_points(text));
           parser.Eval();
           int n_values = 0;
           parser.Eval(n_values);
@@ -88,8 +127,13 @@ namespace tetradapt::core
         {
           throw InputError(what + ": the expression '" + text
                            + "' cannot be read: " + error.GetMsg()
-                           + " Known are x, y, z, t, pi, e, if(c,a,b) and the "
-                             "functions and operators of muParser.");
+                           + " Known are x, y, z, t, pi, e, if(c,a,b), box, sphere, "
+                             "cylinder, half_space and the functions and operators of muParser.");
+        }
+      catch (const SelectorError &error)
+        {
+          throw InputError(what + ": the expression '" + text
+                           + "' cannot be evaluated: " + error.what());
         }
     }
   };
@@ -131,6 +175,11 @@ namespace tetradapt::core
       {
         throw InputError(implementation->what + ": the expression '" + implementation->text
                          + "' cannot be evaluated: " + error.GetMsg());
+      }
+    catch (const SelectorError &error)
+      {
+        throw InputError(implementation->what + ": the expression '" + implementation->text
+                         + "' cannot be evaluated: " + error.what());
       }
     if (!std::isfinite(value))
       {

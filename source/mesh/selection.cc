@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/mesh/selection.h"
 
+#include "tetradapt/core/condition.h"
 #include "tetradapt/core/exceptions.h"
-#include "tetradapt/core/expression.h"
 #include "tetradapt/mesh/mesh_checks.h"
 #include "tetradapt/scene/nearest_names.h"
 
@@ -100,7 +100,7 @@ namespace tetradapt::mesh
             in_list[p] = true;
         if (!selector.where.empty())
           {
-            expression = std::make_unique<core::Expression>(selector.where, name + "/Where");
+            expression = std::make_unique<core::Condition>(selector.where, name + "/Where");
             holds_at.assign(mesh.n_points(), unknown);
           }
       }
@@ -132,10 +132,10 @@ namespace tetradapt::mesh
         yes,
         no
       };
-      const TetMesh                    &mesh;
-      std::vector<bool>                 in_list; ///< per patch
-      std::unique_ptr<core::Expression> expression;
-      std::vector<char>                 holds_at; ///< per point
+      const TetMesh                   &mesh;
+      std::vector<bool>                in_list; ///< per patch
+      std::unique_ptr<core::Condition> expression;
+      std::vector<char>                holds_at; ///< per point
     };
 
 

@@ -4,6 +4,8 @@
 #include "binder.h"
 #include "checks.h"
 
+#include "tetradapt/core/condition.h"
+
 #include <algorithm>
 
 namespace tetradapt::scene
@@ -181,8 +183,8 @@ namespace tetradapt::scene
     {
       if (selector.where.empty())
         return;
-      double value;
-      require(!constant_value(selector.where, path + "/Where", value) || value != 0.,
+      const core::Condition condition(selector.where, path + "/Where");
+      require(!condition.is_constant() || condition.holds(core::Point<3>()),
               path + "/Where",
               "'" + selector.where + "' holds nowhere. Give a condition such as x < 1e-9.");
     }

@@ -187,7 +187,7 @@ namespace tetradapt::solve::hexahedral
     : full_name(name), selector(selector)
   {
     if (!selector.where.empty())
-      expression = std::make_unique<core::Expression>(selector.where, name + "/Where");
+      expression = std::make_unique<core::Condition>(selector.where, name + "/Where");
   }
 
   bool

@@ -2,7 +2,7 @@
 #ifndef tetradapt_source_solve_hexahedral_selection_h
 #define tetradapt_source_solve_hexahedral_selection_h
 
-#include "tetradapt/core/expression.h"
+#include "tetradapt/core/condition.h"
 #include "tetradapt/core/log.h"
 #include "tetradapt/solve/hexahedral_grid.h"
 
@@ -85,9 +85,9 @@ namespace tetradapt::solve::hexahedral
     area(const std::vector<Rectangle> &rectangles) const;
 
   private:
-    std::string                       full_name;
-    scene::Selector                   selector;
-    std::unique_ptr<core::Expression> expression;
+    std::string                      full_name;
+    scene::Selector                  selector;
+    std::unique_ptr<core::Condition> expression;
   };
 
   /**
