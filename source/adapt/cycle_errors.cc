@@ -44,55 +44,59 @@ namespace tetradapt::adapt
         {
           const compare::Difference &difference = cycle.comparison.to_reference();
           set_errors(difference, record);
+          record.error_source      = ErrorSource::reference;
           record.estimate          = difference.energy;
           record.relative_estimate = record.relative_energy_error;
-          record.reference_error
+          record.estimate_source   = "reference";
+          record.reference_error_estimate
             = ratio(sources.reference->estimated_error, difference.energy_norm);
         }
       if (plan.needs(Plan::known_energy))
         {
-          const auto known = estimate::error_from_known_energy(sources.scene.truth.energy,
-                                                               cycle.solution.energy,
-                                                               sources.drive);
+          const auto known
+            = estimate::error_from_strain_energy(sources.scene.exact_solution.strain_energy,
+                                                 cycle.solution.strain_energy,
+                                                 estimate::strain_energy_side(sources.scene));
           measured.warning = known.warning;
           if (known.error)
             {
               record.energy_error          = known.error;
               record.relative_energy_error = known.relative_error;
-              measured.true_energy_error   = true;
+              record.error_source          = ErrorSource::known_energy;
             }
         }
       if (plan.needs(Plan::exact_comparison))
         {
-          set_errors(cycle.comparison.to_truth(), record);
-          measured.true_energy_error = true;
+          set_errors(cycle.comparison.to_exact_solution(), record);
+          record.error_source = ErrorSource::exact;
         }
+      if (record.l2_error || plan.needs(Plan::nodal_ren))
+        record.displacement_error_source = sources.scene.exact_solution.has_displacement()
+                                             ? ErrorSource::exact
+                                             : ErrorSource::reference;
     }
 
-    /** What effectivities are measured against: the truth, else a reference that is
+    /** What effectivities are measured against: the exact solution, else a reference that is
      * clearly better than the mesh. */
     KnownError
-    known_error(const ErrorSources   &sources,
-                const SolvedCycle    &cycle,
-                const CycleRecord    &record,
-                const MeasuredErrors &measured)
+    known_error(const ErrorSources &sources, const SolvedCycle &cycle, const CycleRecord &record)
     {
       KnownError known;
-      if (measured.true_energy_error)
+      if (is_true(record.error_source))
         known.global = record.energy_error;
       if (sources.plan.needs(Plan::exact_comparison))
         {
-          known.cells        = &cycle.comparison.to_truth().cell_energy;
+          known.cells        = &cycle.comparison.to_exact_solution().cell_energy;
           known.cells_source = ErrorEstimator::exact;
           known.source       = ErrorEstimator::exact;
         }
       else if (sources.plan.needs(Plan::extrapolation)
-               && reference_trust(record.reference_error, record.relative_estimate)
+               && reference_trust(record.reference_error_estimate, record.relative_estimate)
                     == ReferenceTrust::trusted)
         {
           known.cells        = &cycle.comparison.to_reference().cell_energy;
           known.cells_source = ErrorEstimator::energy;
-          if (!measured.true_energy_error)
+          if (!is_true(record.error_source))
             {
               known.global = record.estimate;
               known.source = ErrorEstimator::energy;
@@ -111,8 +115,7 @@ namespace tetradapt::adapt
       return known;
     }
 
-    /** Lets an estimator of the energy norm stand for the error where nothing better
-     * is known. */
+    /** Without a reference, the first estimator of the energy norm gives the estimate. */
     void
     set_main_estimate(CycleRecord &record)
     {
@@ -123,11 +126,7 @@ namespace tetradapt::adapt
           {
             record.estimate          = estimate.global;
             record.relative_estimate = estimate.relative;
-            if (!record.energy_error)
-              {
-                record.energy_error          = record.estimate;
-                record.relative_energy_error = record.relative_estimate;
-              }
+            record.estimate_source   = estimate.name;
             return;
           }
     }
@@ -142,29 +141,28 @@ namespace tetradapt::adapt
         squares += indicator * indicator;
       const auto  &adaptivity = scene.adaptivity;
       const double tolerance  = adaptivity.tolerance;
-      if (adaptivity.driver == ErrorEstimator::goal)
+      if (adaptivity.refinement_indicator == ErrorEstimator::goal)
         {
           for (const GoalRecord &goal : record.goals)
-            if (adaptivity.goal_tolerance > 0. && goal.estimated_error
-                && *goal.estimated_error != 0.)
+            if (adaptivity.goal_tolerance > 0. && goal.error_estimate && *goal.error_estimate != 0.)
               return std::sqrt(squares * adaptivity.goal_tolerance
-                               * std::abs(goal.value / *goal.estimated_error));
+                               * std::abs(goal.value / *goal.error_estimate));
           return 0.;
         }
-      if (tolerance == 0. || adaptivity.driver == ErrorEstimator::ren
-          || record.relative_energy_error.value_or(0.) == 0.)
+      if (tolerance == 0. || adaptivity.refinement_indicator == ErrorEstimator::ren
+          || relative_error_or_estimate(record).value_or(0.) == 0.)
         return 0.;
       double wanted = tolerance;
-      if (!measured.true_energy_error)
+      if (!is_true(record.error_source))
         {
           // The reference's own error is part of what the user is told.
-          const double own = record.reference_error.value_or(0.);
+          const double own = record.reference_error_estimate.value_or(0.);
           if (own >= tolerance)
             return 0.;
           wanted = std::sqrt(tolerance * tolerance - own * own);
         }
       // Whatever the estimator's effectivity, the error falls as the indicators do.
-      return std::sqrt(squares) * wanted / *record.relative_energy_error;
+      return std::sqrt(squares) * wanted / *relative_error_or_estimate(record);
     }
   } // namespace
 
@@ -174,12 +172,11 @@ namespace tetradapt::adapt
     MeasuredErrors measured;
     compare_solutions(sources, cycle, record, measured);
     measured.indicators
-      = run_estimators(sources, cycle, known_error(sources, cycle, record, measured), record);
+      = run_estimators(sources, cycle, known_error(sources, cycle, record), record);
     if (sources.plan.needs(Plan::goal_values))
       evaluate_goals(sources.scene, cycle.comparison, record);
     set_main_estimate(record);
-    record.true_energy_error = measured.true_energy_error;
-    if (measured.true_energy_error)
+    if (is_true(record.error_source))
       record.effectivity = estimate::effectivity(record.estimate, record.energy_error);
     measured.wanted_indicator_norm = wanted_indicator_norm(sources.scene, record, measured);
     if (sources.plan.needs(Plan::nodal_ren))

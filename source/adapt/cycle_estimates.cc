@@ -20,13 +20,13 @@ namespace tetradapt::adapt
       return plan.needs(Plan::marking) || plan.needs(Plan::sizing);
     }
 
-    /** Estimators to run, the driver first. */
+    /** Estimators to run, the refinement indicator first. */
     std::vector<ErrorEstimator>
     wanted_estimators(const scene::Scene &scene, const bool driven)
     {
       std::vector<ErrorEstimator> wanted;
       if (driven)
-        wanted.push_back(scene.adaptivity.driver);
+        wanted.push_back(scene.adaptivity.refinement_indicator);
       for (const ErrorEstimator which : scene.estimation.estimators)
         if (std::find(wanted.begin(), wanted.end(), which) == wanted.end())
           wanted.push_back(which);
@@ -49,7 +49,7 @@ namespace tetradapt::adapt
         record.relative = estimate.global / norm;
       record.effectivity = estimate::effectivity(record.global, known.global);
       if (known.cells != nullptr && estimate.indicators.size() == known.cells->size())
-        record.spread = spread_of_local_indices(estimate.indicators, *known.cells);
+        record.local_deviation = deviation_of_local_effectivity(estimate.indicators, *known.cells);
       return record;
     }
 
@@ -90,15 +90,16 @@ namespace tetradapt::adapt
         for (const EstimateRecord &estimate : record.estimates)
           if (is_main && estimate.which == ErrorEstimator::goal)
             {
-              entry.estimated_error = estimate.global;
-              entry.effectivity     = estimate::effectivity(estimate.global, goal.error);
+              entry.error_estimate = estimate.global;
+              entry.effectivity    = estimate::effectivity(estimate.global, goal.error);
             }
         record.goals.push_back(entry);
       }
   }
 
   std::optional<double>
-  spread_of_local_indices(const std::vector<double> &indicators, const std::vector<double> &errors)
+  deviation_of_local_effectivity(const std::vector<double> &indicators,
+                                 const std::vector<double> &errors)
   {
     double weight = 0., mean = 0., square = 0.;
     for (std::size_t cell = 0; cell < errors.size(); ++cell)
@@ -135,7 +136,7 @@ namespace tetradapt::adapt
         const auto estimate
           = estimator->estimate({cycle.comparison, sources.scene, cycle.solution, cycle.levels});
         const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-        const bool   drives  = driven && which == sources.scene.adaptivity.driver;
+        const bool   drives  = driven && which == sources.scene.adaptivity.refinement_indicator;
         if (drives)
           indicators = estimate.indicators;
         if (estimate.missing)

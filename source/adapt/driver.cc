@@ -148,11 +148,13 @@ namespace tetradapt::adapt
     std::ostringstream text;
     text << "Reference: " << reference->description << "; estimated relative energy error "
          << reference->estimated_error / sampling->energy_norm();
-    if (plan.needs(Plan::known_energy))
+    if (plan.needs(Plan::known_energy) && !materials->has_thermal_strain())
       {
         // What is known is sharper than what is estimated.
         const auto known
-          = estimate::error_from_known_energy(scene.truth.energy, reference->energy, drive);
+          = estimate::error_from_known_energy(2. * scene.exact_solution.strain_energy,
+                                              reference->energy,
+                                              drive);
         if (known.error)
           {
             reference->estimated_error = *known.error;
@@ -178,7 +180,7 @@ namespace tetradapt::adapt
       const auto                scope = timer.scope("solve");
       solve::StaticSystem::Stop stop;
       if (stops_early)
-        stop.algebraic_error = scene.solver.algebraic_fraction * predicted_error;
+        stop.algebraic_error = scene.solver.solver_error_fraction * predicted_error;
       const auto system = std::make_shared<solve::StaticSystem>(
         scene, *materials, mesh, scene.degree, communicator, in_cycle(number));
       cycle.solution = system->solve(start.get(), stop);
@@ -204,7 +206,7 @@ namespace tetradapt::adapt
       }
     check_range(cycle.record);
     cycle.comparison = std::make_unique<estimate::Comparison>(
-      cycle.solution.displacement, *materials, scene.truth, sampling, communicator);
+      cycle.solution.displacement, *materials, scene.exact_solution, sampling, communicator);
     return cycle;
   }
 
@@ -281,7 +283,6 @@ namespace tetradapt::adapt
       MeasuredErrors measured     = measure_errors({scene, plan, drive, reference.get()},
                                                {cycle.solution, *cycle.comparison, levels},
                                                cycle.record);
-      cycle.true_energy_error     = measured.true_energy_error;
       cycle.wanted_indicator_norm = measured.wanted_indicator_norm;
       cycle.indicators            = std::move(measured.indicators);
       if (!measured.warning.empty())
@@ -341,7 +342,7 @@ namespace tetradapt::adapt
   {
     StoppingContext context;
     context.degree            = scene.degree;
-    context.true_energy_error = cycle.true_energy_error;
+    context.true_energy_error = is_true(cycle.record.error_source);
     context.true_ren          = plan.needs(Plan::exact_comparison);
     context.goal              = scene.estimation.goal;
     context.n_meshes          = scene.mesh.n_meshes();

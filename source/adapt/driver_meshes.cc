@@ -148,7 +148,7 @@ namespace tetradapt::adapt
     }
     const double largest = *std::max_element(cycle.indicators.begin(), cycle.indicators.end());
     // Below this an error is rounding, and refining would chase noise.
-    const bool is_exact = cycle.record.relative_energy_error.value_or(1.) < 1e-10;
+    const bool is_exact = relative_error_or_estimate(cycle.record).value_or(1.) < 1e-10;
     if (largest == 0. || is_exact || field.n_refined == 0)
       return decide_nothing_to_refine(is_exact ? 0. : largest);
 
@@ -188,7 +188,7 @@ namespace tetradapt::adapt
     Cycle &cycle     = *accepted;
     mesh             = cycle.solution.displacement->shared_mesh();
     cycle.comparison = std::make_unique<estimate::Comparison>(
-      cycle.solution.displacement, *materials, scene.truth, sampling, communicator);
+      cycle.solution.displacement, *materials, scene.exact_solution, sampling, communicator);
     ++n_rejected;
     StopDecision decision;
     if (n_rejected == 1)

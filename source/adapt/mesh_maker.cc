@@ -154,7 +154,7 @@ namespace tetradapt::adapt
       [&](NewMesh &made) {
         mesh::TetMesh mesh         = refine(old, field);
         made.record.requested_tets = field.predicted_tets;
-        made.record.unmet_sizes    = count_unmet_sizes(mesh, locator, field.node_sizes);
+        made.record.oversized_tets = count_oversized_tets(mesh, locator, field.node_sizes);
         return mesh;
       },
       true);
@@ -170,7 +170,7 @@ namespace tetradapt::adapt
       [&](NewMesh &made) {
         mesh::TetMesh mesh         = mesh_anew(old, field, edges);
         made.record.requested_tets = field.predicted_tets;
-        made.record.unmet_sizes    = count_unmet_sizes(mesh, locator, field.node_sizes);
+        made.record.oversized_tets = count_oversized_tets(mesh, locator, field.node_sizes);
         return mesh;
       },
       true);

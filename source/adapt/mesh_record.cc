@@ -40,7 +40,7 @@ namespace tetradapt::adapt
 
     /** Faces by boundary id and cells by region. */
     std::string
-    census_line(const mesh::TetMesh &mesh)
+    counts_line(const mesh::TetMesh &mesh)
     {
       std::map<int, Named> ids, regions;
       for (const mesh::Patch &patch : mesh.patches)
@@ -80,20 +80,20 @@ namespace tetradapt::adapt
         ++record.dihedral_histogram[dihedral_class(quality.min_dihedral)];
       }
     record.volume_drift = volume / first_volume - 1.;
-    record.census       = census_line(mesh);
+    record.counts_by_id = counts_line(mesh);
   }
 
   void
   describe_moves(const mesh::MoveReport &moves, MeshRecord &record)
   {
     record.largest_projection = moves.farthest;
-    record.unprojected        = moves.n_held;
+    record.unprojected_points = moves.n_held;
   }
 
   unsigned long
-  count_unmet_sizes(const mesh::TetMesh         &mesh,
-                    const compare::PointLocator &locator,
-                    const std::vector<double>   &node_sizes)
+  count_oversized_tets(const mesh::TetMesh         &mesh,
+                       const compare::PointLocator &locator,
+                       const std::vector<double>   &node_sizes)
   {
     // In an order in which one search can start where the last one ended.
     std::vector<mesh::Point<3>> centroids(mesh.n_cells());

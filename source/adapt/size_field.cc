@@ -11,7 +11,7 @@
 
 namespace tetradapt::adapt
 {
-  using Route = scene::AdaptivityParameters::Route;
+  using SizeControl = scene::AdaptivityParameters::SizeControl;
 
   double
   equivalent_edge(const double volume)
@@ -56,11 +56,15 @@ namespace tetradapt::adapt
                           const unsigned long                n_cells)
   {
     SizeFieldOptions options;
-    options.route      = parameters.coarsening ? Route::node_sizes : parameters.route;
+    options.size_control
+      = parameters.coarsening ? SizeControl::node_sizes : parameters.size_control;
     options.coarsening = parameters.coarsening;
     // Displacements converge one power of h faster than strains.
     options.rate
-      = degree + (parameters.driver == scene::AdaptivityParameters::Driver::ren ? 1. : 0.);
+      = degree
+        + (parameters.refinement_indicator == scene::AdaptivityParameters::RefinementIndicator::ren
+             ? 1.
+             : 0.);
     options.wanted_tets  = parameters.growth * n_cells;
     options.growth_slack = default_growth_slack;
     if (parameters.max_tets > 0 && default_growth_slack * options.wanted_tets > parameters.max_tets)
@@ -108,7 +112,7 @@ namespace tetradapt::adapt
     // with node sizes and 0.9 to 1.5 with volume constraints.
     if (options.coarsening)
       return 1.45;
-    return options.route == Route::node_sizes ? 1.5 : 1.2;
+    return options.size_control == SizeControl::node_sizes ? 1.5 : 1.2;
   }
 
 
@@ -300,7 +304,7 @@ namespace tetradapt::adapt
       for (double &size : field.node_sizes)
         size *= std::cbrt(default_obtained_over_predicted(options));
 
-    if (field.n_refined > 0 && options.route == Route::node_sizes)
+    if (field.n_refined > 0 && options.size_control == SizeControl::node_sizes)
       field.sizing.node_sizes = field.node_sizes;
     else if (field.n_refined > 0)
       field.sizing.cell_volumes = std::move(cell_volumes);

@@ -7,7 +7,7 @@
 
 namespace tetradapt::adapt
 {
-  using Route = scene::AdaptivityParameters::Route;
+  using SizeControl = scene::AdaptivityParameters::SizeControl;
 
   namespace
   {
@@ -179,7 +179,7 @@ namespace tetradapt::adapt
   SizePrediction::field() const
   {
     const double clamped = std::log(options.min_ratio) + 1e-9;
-    const bool   by_size = options.route == Route::node_sizes;
+    const bool   by_size = options.size_control == SizeControl::node_sizes;
     const double bound   = volume_bound_factor(options.radius_edge_ratio);
 
     SizeField field;

@@ -39,11 +39,11 @@ namespace tetradapt::adapt
         return {record.relative_energy_error, "true relative energy error"};
       if (!record.relative_estimate)
         return {};
-      if (!record.reference_error)
+      if (!record.reference_error_estimate)
         return {record.relative_estimate, "estimated relative energy error"};
-      return {std::hypot(*record.relative_estimate, *record.reference_error),
+      return {std::hypot(*record.relative_estimate, *record.reference_error_estimate),
               "estimated relative energy error (the reference's own error of "
-                + number(*record.reference_error) + " included)"};
+                + number(*record.reference_error_estimate) + " included)"};
     }
 
 
@@ -53,7 +53,7 @@ namespace tetradapt::adapt
     {
       if (context.reference_tets == 0)
         return ReferenceTrust::unknown;
-      return reference_trust(record.reference_error,
+      return reference_trust(record.reference_error_estimate,
                              context.true_energy_error && record.relative_energy_error
                                ? record.relative_energy_error
                                : record.relative_estimate);
@@ -75,7 +75,7 @@ namespace tetradapt::adapt
     beside(const StoppingContext &context, const CycleRecord &record)
     {
       const bool is_true = context.true_energy_error && record.relative_energy_error;
-      return "its own relative energy error is " + number(*record.reference_error)
+      return "its own relative energy error is " + number(*record.reference_error_estimate)
              + (is_true ? ", the true error of this mesh " : ", its difference to this mesh ")
              + number(is_true ? *record.relative_energy_error : *record.relative_estimate);
     }
@@ -92,8 +92,8 @@ namespace tetradapt::adapt
           {
             if (goal.error && *goal.exact != 0.)
               return std::abs(*goal.error / *goal.exact);
-            if (goal.estimated_error && goal.value != 0.)
-              return std::abs(*goal.estimated_error / goal.value);
+            if (goal.error_estimate && goal.value != 0.)
+              return std::abs(*goal.error_estimate / goal.value);
             break;
           }
       return std::nullopt;
@@ -179,9 +179,10 @@ namespace tetradapt::adapt
                     StopDecision               &decision)
     {
       // An adaptive loop that another estimator drives does not use the reference.
-      const bool drives = parameters.strategy == Strategy::adaptive
-                          && (parameters.driver == AdaptivityParameters::Driver::energy
-                              || parameters.driver == AdaptivityParameters::Driver::ren);
+      const bool drives
+        = parameters.strategy == Strategy::adaptive
+          && (parameters.refinement_indicator == AdaptivityParameters::RefinementIndicator::energy
+              || parameters.refinement_indicator == AdaptivityParameters::RefinementIndicator::ren);
       // Who has turned the safeguard off gets the rules that were asked for and no others.
       const bool blind = trust == ReferenceTrust::saturated && !parameters.safeguard;
       const bool ends
@@ -383,12 +384,12 @@ namespace tetradapt::adapt
         || (parameters.max_dofs > 0 && 8 * last.dofs > parameters.max_dofs))
       {
         decision.reason = StopReason::no_better_mesh;
-        decision.text   = "Stopped without convergence: two meshes made from that of cycle "
-                        + std::to_string(last.cycle)
-                        + " were worse by their energy, and cutting each of its "
-                        + std::to_string(last.tets)
-                        + " tetrahedra into eight would exceed the limits on tetrahedra or "
-                          "unknowns (look at the driver, the marking and the maximum ratio).";
+        decision.text
+          = "Stopped without convergence: two meshes made from that of cycle "
+            + std::to_string(last.cycle) + " were worse by their energy, and cutting each of its "
+            + std::to_string(last.tets)
+            + " tetrahedra into eight would exceed the limits on tetrahedra or "
+              "unknowns (look at the refinement indicator, the marking and the maximum ratio).";
       }
     return decision;
   }

@@ -41,10 +41,10 @@ namespace tetradapt::compare
   } // namespace
 
   Difference
-  difference_to_exact(const mesh::NodalField       &u_h,
-                      const scene::TruthParameters &truth,
-                      const mechanics::MaterialMap &materials,
-                      MPI_Comm                      communicator)
+  difference_to_exact(const mesh::NodalField               &u_h,
+                      const scene::ExactSolutionParameters &exact_solution,
+                      const mechanics::MaterialMap         &materials,
+                      MPI_Comm                              communicator)
   {
     const mesh::TetMesh &mesh    = u_h.mesh();
     const unsigned int   n_cells = mesh.n_cells();
@@ -57,7 +57,7 @@ namespace tetradapt::compare
     std::vector<double> sums(6, 0.);
 
     together(communicator, [&] {
-      const ExactSolution  exact(truth);
+      const ExactSolution  exact(exact_solution);
       const FieldEvaluator evaluator(u_h);
       // In mixed form the stress, without thermal strain, measures the energy.
       const bool thermal = materials.is_mixed() && materials.has_thermal_strain();

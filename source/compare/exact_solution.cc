@@ -7,22 +7,22 @@ namespace tetradapt::compare
 {
   namespace
   {
-    const scene::TruthParameters &
-    with_displacement(const scene::TruthParameters &truth)
+    const scene::ExactSolutionParameters &
+    with_displacement(const scene::ExactSolutionParameters &exact_solution)
     {
-      if (!truth.has_displacement())
+      if (!exact_solution.has_displacement())
         throw core::InputError("An exact displacement is needed here, but the scene gives none: "
                                "give its three components as expressions in x, y, z.");
-      return truth;
+      return exact_solution;
     }
   } // namespace
 
-  ExactSolution::ExactSolution(const scene::TruthParameters &truth)
-    : displacement(with_displacement(truth).displacement, "the exact displacement")
+  ExactSolution::ExactSolution(const scene::ExactSolutionParameters &exact_solution)
+    : displacement(with_displacement(exact_solution).displacement, "the exact displacement")
   {
-    if (truth.has_gradient())
+    if (exact_solution.has_gradient())
       for (unsigned int i = 0; i < 9; ++i)
-        gradients.emplace_back(truth.gradient[i],
+        gradients.emplace_back(exact_solution.gradient[i],
                                std::string("the exact displacement's gradient, du_") + "xyz"[i / 3]
                                  + "/d" + "xyz"[i % 3]);
   }

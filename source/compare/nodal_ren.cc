@@ -96,12 +96,14 @@ namespace tetradapt::compare
   }
 
   NodalRen
-  nodal_ren(const mesh::NodalField &u_h, const scene::TruthParameters &truth, MPI_Comm communicator)
+  nodal_ren(const mesh::NodalField               &u_h,
+            const scene::ExactSolutionParameters &exact_solution,
+            MPI_Comm                              communicator)
   {
     const Slice         slice = own_slice(u_h.n_nodes(), communicator);
     std::vector<double> distances(2 * std::size_t(u_h.n_nodes()), 0.);
     together(communicator, [&] {
-      const ExactSolution exact(truth);
+      const ExactSolution exact(exact_solution);
       for (unsigned int node = slice.begin; node < slice.end; ++node)
         {
           const Tensor<1, 3> u                 = exact.value(u_h.node_position(node));

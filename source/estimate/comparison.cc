@@ -7,10 +7,10 @@ namespace tetradapt::estimate
 {
   Comparison::Comparison(std::shared_ptr<const mesh::NodalField>           displacement,
                          const mechanics::MaterialMap                     &materials,
-                         const scene::TruthParameters                     &truth,
+                         const scene::ExactSolutionParameters             &exact_solution,
                          std::shared_ptr<const compare::ReferenceSampling> sampling,
                          const MPI_Comm                                    communicator)
-    : u_h(std::move(displacement)), materials(materials), truth(truth),
+    : u_h(std::move(displacement)), materials(materials), exact_solution(exact_solution),
       sampling(std::move(sampling)), communicator(communicator)
   {
   }
@@ -23,7 +23,7 @@ namespace tetradapt::estimate
     if (!has_reference())
       throw core::InputError("A comparison with a reference solution is needed, but the scene has "
                              "no reference. Set 'Type' in the section 'Reference', or choose "
-                             "another driver in the section 'Adaptivity'.");
+                             "another refinement indicator in the section 'Adaptivity'.");
   }
 
 
@@ -44,15 +44,17 @@ namespace tetradapt::estimate
 
 
   const compare::Difference &
-  Comparison::to_truth()
+  Comparison::to_exact_solution()
   {
     if (!true_difference)
       {
         if (!has_exact_displacement())
-          throw core::InputError("A comparison with the exact solution is needed, but the scene "
-                                 "gives none. Set 'Displacement' in the section 'Truth', or choose "
-                                 "another driver in the section 'Adaptivity'.");
-        true_difference = compare::difference_to_exact(*u_h, truth, materials, communicator);
+          throw core::InputError(
+            "A comparison with the exact solution is needed, but the scene "
+            "gives none. Set 'Displacement' in the section 'Exact solution', or choose "
+            "another refinement indicator in the section 'Adaptivity'.");
+        true_difference
+          = compare::difference_to_exact(*u_h, exact_solution, materials, communicator);
       }
     return *true_difference;
   }
@@ -65,7 +67,7 @@ namespace tetradapt::estimate
     if (!has_exact_displacement())
       return ren_to_reference();
     if (!true_ren)
-      true_ren = compare::nodal_ren(*u_h, truth, communicator);
+      true_ren = compare::nodal_ren(*u_h, exact_solution, communicator);
     return *true_ren;
   }
 

@@ -3,6 +3,7 @@
 
 #include "tetradapt/scene/moved_supports.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -21,28 +22,55 @@ namespace tetradapt::estimate
   KnownEnergyError
   error_from_known_energy(const double known_energy, const double energy, const Drive drive)
   {
+    return error_from_strain_energy(0.5 * known_energy,
+                                    0.5 * energy,
+                                    drive == Drive::loads          ? EnergySide::below
+                                    : drive == Drive::displacement ? EnergySide::above
+                                                                   : EnergySide::unknown);
+  }
+
+
+
+  EnergySide
+  strain_energy_side(const scene::Scene &scene)
+  {
+    const auto is_temperature
+      = [](const scene::LoadParameters &load) { return load.type == scene::LoadType::temperature; };
+    if (std::all_of(scene.loads.begin(), scene.loads.end(), is_temperature))
+      return EnergySide::above;
+    return scene::moves_supports(scene)
+               || std::any_of(scene.loads.begin(), scene.loads.end(), is_temperature)
+             ? EnergySide::unknown
+             : EnergySide::below;
+  }
+
+
+
+  KnownEnergyError
+  error_from_strain_energy(const double known_energy, const double energy, const EnergySide side)
+  {
     KnownEnergyError result;
-    if (drive == Drive::both)
+    if (side == EnergySide::unknown)
       {
-        result.warning = "The true energy error cannot be told from a known energy when both loads "
-                         "and prescribed displacements act; the scene's known energy is not used.";
+        result.warning = "A known strain energy does not give the error where mechanical loads act "
+                         "together with prescribed displacements or temperatures; the scene's "
+                         "known strain energy is not used.";
         return result;
       }
-    const double squared = drive == Drive::loads ? known_energy - energy : energy - known_energy;
-    if (!(squared >= -1e-6 * known_energy))
+    const double gap = side == EnergySide::below ? known_energy - energy : energy - known_energy;
+    if (!(gap >= -1e-6 * known_energy))
       {
         std::ostringstream text;
         text.precision(9);
-        text << "The known energy " << known_energy << " contradicts the computed one, " << energy
-             << ", which must be " << (drive == Drive::loads ? "below" : "above")
-             << " it: check the known energy (a(u,u), the integral of strain : C : strain), the "
-                "loads and the "
-             << "material.";
+        text << "The known strain energy " << known_energy << " contradicts the computed one, "
+             << energy << ", which must be " << (side == EnergySide::below ? "below" : "above")
+             << " it: check the known strain energy (half the integral of strain : C : strain), "
+                "the loads and the material.";
         result.warning = text.str();
         return result;
       }
-    result.error          = std::sqrt(std::abs(squared));
-    result.relative_error = *result.error / std::sqrt(known_energy);
+    result.error          = std::sqrt(2. * std::abs(gap));
+    result.relative_error = *result.error / std::sqrt(2. * known_energy);
     return result;
   }
 

@@ -17,7 +17,7 @@ namespace tetradapt::estimate
   Estimate
   ExactEnergy::estimate(const EstimateInput &input) const
   {
-    const compare::Difference &difference = input.comparison.to_truth();
+    const compare::Difference &difference = input.comparison.to_exact_solution();
     return {difference.cell_energy, difference.energy};
   }
 } // namespace tetradapt::estimate

@@ -53,24 +53,24 @@ namespace tetradapt::mesh
     }
 
     /** What the volume mesh of a boundary has to consist of. */
-    Census
-    expected_census(const geometry::CheckedSurface &surface, const PiecewiseLinearComplex &plc)
+    MeshTotals
+    expected_totals(const geometry::CheckedSurface &surface, const PiecewiseLinearComplex &plc)
     {
-      Census census;
-      census.volume = surface.volume;
-      census.area   = surface.area;
-      census.patches.resize(plc.patches.size());
+      MeshTotals totals;
+      totals.volume = surface.volume;
+      totals.area   = surface.area;
+      totals.patches.resize(plc.patches.size());
       const auto &p = surface.mesh.points;
       for (std::size_t i = 0; i < surface.mesh.triangles.size(); ++i)
         {
           const auto &t     = surface.mesh.triangles[i];
-          auto       &entry = census.patches[surface.mesh.ids[i]];
+          auto       &entry = totals.patches[surface.mesh.ids[i]];
           ++entry.n_faces;
           entry.area += 0.5 * dealii::cross_product_3d(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]).norm();
         }
       for (std::size_t i = 0; i < plc.patches.size(); ++i)
-        census.patches[i].patch = plc.patches[i];
-      return census;
+        totals.patches[i].patch = plc.patches[i];
+      return totals;
     }
 
     /** TetGen crashes on a region's point that lies outside, and deals the cells of
@@ -102,11 +102,11 @@ namespace tetradapt::mesh
     }
 
     void
-    check_regions(const Census &census, const PiecewiseLinearComplex &plc)
+    check_regions(const MeshTotals &totals, const PiecewiseLinearComplex &plc)
     {
       if (plc.regions.empty())
         return;
-      for (const auto &[id, entry] : census.regions)
+      for (const auto &[id, entry] : totals.regions)
         if (std::none_of(plc.regions.begin(), plc.regions.end(), [id = id](const auto &region) {
               return region.id == id;
             }))
@@ -168,9 +168,9 @@ namespace tetradapt::mesh
       = run_tetgen(request, {parameters.time_limit, parameters.memory_limit}, plc.name);
     frame.leave(reply);
 
-    TetMesh      mesh   = mesh_from_reply(reply, plc.patches, plc.name);
-    Census       before = expected_census(surface, plc);
-    const Census after  = take_census(mesh);
+    TetMesh          mesh   = mesh_from_reply(reply, plc.patches, plc.name);
+    MeshTotals       before = expected_totals(surface, plc);
+    const MeshTotals after  = mesh_totals(mesh);
     check_regions(after, plc);
     before.regions     = after.regions;
     const double drift = check_kept(before, after, plc.volume_tolerance, plc.name);
@@ -223,7 +223,7 @@ namespace tetradapt::mesh
 
     TetMesh refined      = mesh_from_reply(reply, mesh.patches, what);
     refined.region_names = mesh.region_names;
-    const double drift   = check_kept(take_census(mesh), take_census(refined), 1e-9, what);
+    const double drift   = check_kept(mesh_totals(mesh), mesh_totals(refined), 1e-9, what);
     if (report != nullptr)
       {
         report->called     = true;

@@ -73,9 +73,12 @@ namespace tetradapt::mesh
   }
 
   double
-  check_kept(const Census &before, const Census &after, double tolerance, const std::string &what)
+  check_kept(const MeshTotals  &before,
+             const MeshTotals  &after,
+             double             tolerance,
+             const std::string &what)
   {
-    const auto complaints = compare_censuses(before, after, tolerance);
+    const auto complaints = compare_totals(before, after, tolerance);
     if (!complaints.empty())
       {
         std::string message = "TetGen's mesh of " + what + " is not what was asked for: ";

@@ -26,7 +26,7 @@ namespace tetradapt::report
     has_value(const RecordColumn &column, const Records &records)
     {
       return std::any_of(records.begin(), records.end(), [&](const adapt::CycleRecord &record) {
-        return column.value(record).has_value();
+        return column.has_value(record);
       });
     }
 
@@ -44,7 +44,7 @@ namespace tetradapt::report
             continue;
           rows[0].push_back(column.name);
           for (std::size_t i = 0; i < records.size(); ++i)
-            rows[i + 1].push_back(format_cell(column.kind, column.value(records[i]), 7, 3, "-"));
+            rows[i + 1].push_back(column.cell(records[i], 7, 3, "-"));
         }
       return aligned_table(rows);
     }
@@ -64,8 +64,7 @@ namespace tetradapt::report
   {
     std::string line;
     for (const RecordColumn &column : columns)
-      line += (&column == &columns.front() ? "" : ",")
-              + format_cell(column.kind, column.value(record), 10, -1, "");
+      line += (&column == &columns.front() ? "" : ",") + csv_text(column.cell(record, 10, -1, ""));
     return line;
   }
 
@@ -108,11 +107,7 @@ namespace tetradapt::report
     std::string line;
     for (const TerminalColumn &column : columns)
       append_aligned(line,
-                     format_cell(column.column.kind,
-                                 column.column.value(record),
-                                 column.width >= 11 ? 6 : 4,
-                                 2,
-                                 "-"),
+                     column.column.cell(record, column.width >= 11 ? 6 : 4, 2, "-"),
                      column.width);
     return line;
   }

@@ -4,6 +4,8 @@
 #include "tetradapt/core/atomic_file.h"
 #include "tetradapt/report/record_columns.h"
 
+#include <cmath>
+
 
 namespace tetradapt::report
 {
@@ -36,13 +38,13 @@ namespace tetradapt::report
       std::string line = std::to_string(record.cycle) + "," + std::to_string(record.points) + ","
                          + std::to_string(record.tets) + ","
                          + format_cell(Kind::figure, mesh.requested_tets, 10, -1, "") + ","
-                         + std::to_string(mesh.unmet_sizes) + "," + figure(visible_drift(mesh))
+                         + std::to_string(mesh.oversized_tets) + "," + figure(visible_drift(mesh))
                          + "," + figure(mesh.largest_projection) + ","
-                         + std::to_string(mesh.unprojected) + "," + figure(mesh.min_dihedral) + ","
-                         + figure(mesh.max_dihedral) + "," + figure(mesh.max_aspect_ratio);
+                         + std::to_string(mesh.unprojected_points) + "," + figure(mesh.min_dihedral)
+                         + "," + figure(mesh.max_dihedral) + "," + figure(mesh.max_aspect_ratio);
       for (const unsigned long count : mesh.dihedral_histogram)
         line += "," + std::to_string(count);
-      return line + "," + csv_text(mesh.census) + "\n";
+      return line + "," + csv_text(mesh.counts_by_id) + "\n";
     }
 
     std::string
@@ -67,14 +69,32 @@ namespace tetradapt::report
     }
   } // namespace
 
+  double
+  visible_drift(const adapt::MeshRecord &mesh)
+  {
+    return std::abs(mesh.volume_drift) > 1e-12 ? mesh.volume_drift : 0.;
+  }
+
+  const std::array<unsigned int, 8> dihedral_class_begins{{0, 5, 10, 20, 30, 40, 50, 60}};
+
+  std::string
+  dihedral_class_name(const unsigned int number)
+  {
+    const auto &begins = dihedral_class_begins;
+    return number + 1 == begins.size() ? "dihedral_from_" + std::to_string(begins[number])
+                                       : "dihedral_" + std::to_string(begins[number]) + "_to_"
+                                           + std::to_string(begins[number + 1]);
+  }
+
   std::string
   csv_meshes(const std::vector<adapt::CycleRecord> &records)
   {
-    std::string text = "cycle,points,tets,requested_tets,unmet_sizes,volume_drift,"
-                       "largest_projection,unprojected,min_dihedral,max_dihedral,max_aspect_ratio";
+    std::string text
+      = "cycle,points,tets,requested_tets,oversized_tets,volume_drift,"
+        "largest_projection,unprojected_points,min_dihedral,max_dihedral,max_aspect_ratio";
     for (unsigned int i = 0; i < dihedral_class_begins.size(); ++i)
       text += "," + dihedral_class_name(i);
-    text += ",census\n";
+    text += ",counts_by_id\n";
     for (const adapt::CycleRecord &record : records)
       text += csv_row_of(record);
     return text;
@@ -90,15 +110,16 @@ namespace tetradapt::report
       = "Mesh of cycle " + std::to_string(record.cycle) + ": " + std::to_string(record.tets)
         + " tetrahedra"
         + (mesh.requested_tets ? ", " + number(*mesh.requested_tets) + " asked for" : "");
-    if (mesh.requested_tets || mesh.unmet_sizes > 0)
-      text += ", " + std::to_string(mesh.unmet_sizes) + " more than twice as large as wanted";
+    if (mesh.requested_tets || mesh.oversized_tets > 0)
+      text += ", " + std::to_string(mesh.oversized_tets) + " more than twice as large as wanted";
     text += visible_drift(mesh) != 0.
               ? ", volume changed by " + number(100. * mesh.volume_drift) + " %"
               : ", volume kept";
-    if (mesh.largest_projection > 0. || mesh.unprojected > 0)
+    if (mesh.largest_projection > 0. || mesh.unprojected_points > 0)
       text += ", points moved to the boundary by up to " + number(mesh.largest_projection) + ", "
-              + std::to_string(mesh.unprojected) + " kept back";
-    for (const std::string &line : {histogram_line(mesh), mesh.census})
+              + std::to_string(mesh.unprojected_points)
+              + " not moved, since a tetrahedron would have been inverted";
+    for (const std::string &line : {histogram_line(mesh), mesh.counts_by_id})
       text += (line.empty() ? "" : "\n") + line;
     return text;
   }

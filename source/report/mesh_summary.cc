@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/report/mesh_summary.h"
 
-#include "tetradapt/mesh/census.h"
+#include "tetradapt/mesh/mesh_totals.h"
 #include "tetradapt/mesh/quality.h"
 #include "tetradapt/report/record_columns.h"
 
@@ -50,22 +50,22 @@ namespace tetradapt::report
   std::string
   mesh_summary(const mesh::TetMesh &mesh)
   {
-    const mesh::Census census = mesh::take_census(mesh);
-    const auto         box    = mesh::bounding_box(mesh);
+    const mesh::MeshTotals totals = mesh::mesh_totals(mesh);
+    const auto             box    = mesh::bounding_box(mesh);
 
-    std::string text = std::to_string(census.n_points) + " points, "
-                       + std::to_string(census.n_cells) + " tetrahedra, "
-                       + std::to_string(census.n_faces) + " boundary faces\nwithin "
+    std::string text = std::to_string(totals.n_points) + " points, "
+                       + std::to_string(totals.n_cells) + " tetrahedra, "
+                       + std::to_string(totals.n_faces) + " boundary faces\nwithin "
                        + describe_point(box.first) + " and " + describe_point(box.second)
-                       + ", volume " + number(census.volume) + ", surface " + number(census.area);
-    for (const auto &[id, region] : census.regions)
+                       + ", volume " + number(totals.volume) + ", surface " + number(totals.area);
+    for (const auto &[id, region] : totals.regions)
       text += "\nregion " + std::to_string(id)
               + (region.name.empty() ? "" : " (" + region.name + ")") + ": "
               + std::to_string(region.n_cells) + " tetrahedra, volume " + number(region.volume);
-    for (unsigned int p = 0; p < census.patches.size(); ++p)
-      text += "\npatch " + std::to_string(p) + " with " + mesh::describe(census.patches[p].patch)
-              + ": " + std::to_string(census.patches[p].n_faces) + " faces, area "
-              + number(census.patches[p].area);
+    for (unsigned int p = 0; p < totals.patches.size(); ++p)
+      text += "\npatch " + std::to_string(p) + " with " + mesh::describe(totals.patches[p].patch)
+              + ": " + std::to_string(totals.patches[p].n_faces) + " faces, area "
+              + number(totals.patches[p].area);
     return text + "\n" + shape_lines(mesh);
   }
 } // namespace tetradapt::report

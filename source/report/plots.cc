@@ -124,14 +124,10 @@ namespace tetradapt::report
     }
 
     std::string
-    error_label(const scene::Scene &scene, const Records &records)
+    error_label(const Records &records)
     {
-      using Reference = scene::ReferenceParameters::Type;
-      if (records.back().true_energy_error)
-        return "true energy error";
-      if (scene.reference.type != Reference::none)
-        return "error to the reference";
-      return "estimated energy error";
+      return adapt::is_true(records.back().error_source) ? "true energy error"
+                                                         : "difference to the reference";
     }
 
     /** The error of a goal whose value is known, relative to it. */
@@ -156,7 +152,7 @@ namespace tetradapt::report
       const auto add = [&](const std::string &label, unsigned int pattern, const Figure &figure) {
         add_curve(plot, label, points_of(records, abscissa, figure), pattern);
       };
-      add(error_label(scene, records), 0, [](const Record &r) { return r.relative_energy_error; });
+      add(error_label(records), 0, [](const Record &r) { return r.relative_energy_error; });
       for (const std::string &name : estimator_names(records))
         add(name, 1, [&](const Record &r) -> std::optional<double> {
           const auto *entry = find_estimate(r, name);
@@ -318,7 +314,14 @@ namespace tetradapt::report
   std::vector<NamedPlot>
   plots_of_study(const std::string &title, const std::vector<PlottedRun> &runs)
   {
-    const Figure error = [](const Record &r) { return r.relative_energy_error; };
+    const bool all_measured = std::all_of(runs.begin(), runs.end(), [](const PlottedRun &run) {
+      return std::all_of(run.records.begin(), run.records.end(), [](const Record &r) {
+        return r.relative_energy_error || !r.relative_estimate;
+      });
+    });
+    const std::string error_name
+      = all_measured ? "relative energy error" : "relative energy error, measured or estimated";
+    const Figure error = adapt::relative_error_or_estimate;
     const Figure ren   = [](const Record &r) { return r.mean_ren; };
     const auto   plot  = [&](const std::string &name,
                           const std::string &y_label,
@@ -337,8 +340,8 @@ namespace tetradapt::report
     effectivity.logarithmic_y = is_large;
     effectivity.level         = 1.;
     return {
-      plot("convergence_dofs", "relative energy error", Abscissa::dofs, error, true),
-      plot("convergence_seconds", "relative energy error", Abscissa::seconds, error, true),
+      plot("convergence_dofs", error_name, Abscissa::dofs, error, true),
+      plot("convergence_seconds", error_name, Abscissa::seconds, error, true),
       {"effectivity", gnuplot_script(effectivity)},
       plot("ren", "mean REN", Abscissa::cycle, ren, false),
       plot("ren_tets", "mean REN", Abscissa::tets, ren, false),

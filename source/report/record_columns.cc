@@ -13,6 +13,38 @@ namespace tetradapt::report
     using Value  = std::optional<double>;
     using Kind   = RecordColumn::Kind;
 
+    std::string
+    error_source_name(const adapt::ErrorSource source)
+    {
+      switch (source)
+        {
+        case adapt::ErrorSource::exact:
+          return "exact";
+        case adapt::ErrorSource::known_energy:
+          return "known energy";
+        case adapt::ErrorSource::reference:
+          return "reference";
+        case adapt::ErrorSource::none:
+          break;
+        }
+      return "";
+    }
+
+    RecordColumn
+    text_column(const std::string &name, std::function<std::string(const Record &)> text)
+    {
+      return {name, Kind::text, [](const Record &) { return Value(); }, "", std::move(text)};
+    }
+
+    /** What is known of the accuracy of a cycle, and from where. */
+    std::string
+    error_source(const Record &record)
+    {
+      if (record.energy_error)
+        return error_source_name(record.error_source);
+      return record.estimate ? "estimate " + record.estimate_source : "";
+    }
+
     const std::vector<RecordColumn> &
     fixed_columns()
     {
@@ -31,7 +63,9 @@ namespace tetradapt::report
          Kind::figure,
          [](const Record &r) { return r.relative_energy_error; },
          ""},
+        text_column("error_source", error_source),
         {"estimate", Kind::figure, [](const Record &r) { return r.estimate; }, ""},
+        text_column("estimate_source", [](const Record &r) { return r.estimate_source; }),
         {"effectivity", Kind::figure, [](const Record &r) { return r.effectivity; }, ""},
         {"strain_energy",
          Kind::figure,
@@ -63,14 +97,18 @@ namespace tetradapt::report
          Kind::figure,
          [](const Record &r) { return r.relative_h1_error; },
          ""},
+        text_column("displacement_error_source",
+                    [](const Record &r) { return error_source_name(r.displacement_error_source); }),
         {"energy_error", Kind::figure, [](const Record &r) { return r.energy_error; }, ""},
         {"relative_estimate",
          Kind::figure,
          [](const Record &r) { return r.relative_estimate; },
          ""},
-        {"reference_error", Kind::figure, [](const Record &r) { return r.reference_error; }, ""},
+        {"reference_error_estimate",
+         Kind::figure,
+         [](const Record &r) { return r.reference_error_estimate; },
+         ""},
         {"iterations", Kind::count, [](const Record &r) -> Value { return r.iterations; }, ""},
-        {"energy", Kind::figure, [](const Record &r) -> Value { return r.energy; }, ""},
         {"accepted",
          Kind::count,
          [](const Record &r) -> Value { return r.acceptance == adapt::Acceptance::accepted; },
@@ -144,7 +182,7 @@ namespace tetradapt::report
       add("estimate", &Entry::global, Kind::figure);
       add("relative_estimate", &Entry::relative, Kind::figure);
       add("effectivity", &Entry::effectivity, Kind::figure);
-      add("spread", &Entry::spread, Kind::figure);
+      add("local_effectivity_deviation", &Entry::local_deviation, Kind::figure);
       add("seconds", &Entry::seconds, Kind::seconds);
     }
 
@@ -161,7 +199,7 @@ namespace tetradapt::report
       add("", &Entry::value);
       add("_exact", &Entry::exact);
       add("_error", &Entry::error);
-      add("_estimated_error", &Entry::estimated_error);
+      add("_error_estimate", &Entry::error_estimate);
       add("_effectivity", &Entry::effectivity);
     }
 
@@ -175,7 +213,7 @@ namespace tetradapt::report
                                                                 : Value();
                          },
                          "solver"});
-      columns.push_back({"algebraic_error",
+      columns.push_back({"algebraic_error_estimate",
                          Kind::figure,
                          [](const Record &r) { return r.algebraic_error; },
                          "solver"});
@@ -199,7 +237,7 @@ namespace tetradapt::report
                          Kind::figure,
                          [](const Record &r) { return r.mesh.requested_tets; },
                          "mesh"});
-      add("unmet_sizes", Kind::count, &Mesh::unmet_sizes);
+      add("oversized_tets", Kind::count, &Mesh::oversized_tets);
       columns.push_back({"volume_drift",
                          Kind::figure,
                          [](const Record &r) -> Value {
@@ -209,7 +247,7 @@ namespace tetradapt::report
       if (with_projection)
         {
           add("largest_projection", Kind::figure, &Mesh::largest_projection);
-          add("unprojected", Kind::count, &Mesh::unprojected);
+          add("unprojected_points", Kind::count, &Mesh::unprojected_points);
         }
       add("min_dihedral", Kind::figure, &Mesh::min_dihedral);
       add("max_dihedral", Kind::figure, &Mesh::max_dihedral);
@@ -220,7 +258,7 @@ namespace tetradapt::report
     has_value(const RecordColumn &column, const std::vector<Record> &records)
     {
       return std::any_of(records.begin(), records.end(), [&](const Record &record) {
-        return column.value(record).has_value();
+        return column.has_value(record);
       });
     }
 
@@ -243,26 +281,35 @@ namespace tetradapt::report
   } // namespace
 
   std::vector<RecordColumn>
+  possible_columns(const std::vector<std::string> &estimators,
+                   const std::vector<std::string> &goals,
+                   const bool                      with_projection)
+  {
+    std::vector<RecordColumn> columns = fixed_columns();
+    add_solver(columns);
+    for (const std::string &name : estimators)
+      add_estimator(name, columns);
+    for (const std::string &name : goals)
+      add_goal(name, columns);
+    add_mesh(with_projection, columns);
+    return columns;
+  }
+
+  std::vector<RecordColumn>
   record_columns(const std::vector<adapt::CycleRecord> &records)
   {
-    std::vector<RecordColumn> more;
-    add_solver(more);
-    for (const auto &name : names_of<adapt::EstimateRecord>(records, &Record::estimates))
-      add_estimator(name, more);
-    for (const auto &name : names_of<adapt::GoalRecord>(records, &Record::goals))
-      add_goal(name, more);
-    add_mesh(std::any_of(records.begin(),
-                         records.end(),
-                         [](const Record &r) {
-                           return r.mesh.largest_projection > 0. || r.mesh.unprojected > 0;
-                         }),
-             more);
-
-    std::vector<RecordColumn> columns = fixed_columns();
-    std::copy_if(more.begin(),
-                 more.end(),
-                 std::back_inserter(columns),
-                 [&](const RecordColumn &column) { return has_value(column, records); });
+    const bool with_projection = std::any_of(records.begin(), records.end(), [](const Record &r) {
+      return r.mesh.largest_projection > 0. || r.mesh.unprojected_points > 0;
+    });
+    auto columns = possible_columns(names_of<adapt::EstimateRecord>(records, &Record::estimates),
+                                    names_of<adapt::GoalRecord>(records, &Record::goals),
+                                    with_projection);
+    columns.erase(std::remove_if(columns.begin() + fixed_columns().size(),
+                                 columns.end(),
+                                 [&](const RecordColumn &column) {
+                                   return !has_value(column, records);
+                                 }),
+                  columns.end());
     make_names_unique(columns);
     return columns;
   }
@@ -282,19 +329,24 @@ namespace tetradapt::report
                                         {"dofs", 9, named("dofs")},
                                         {"mean REN", 9, named("mean_ren")},
                                         {"max REN", 9, named("max_ren")},
-                                        {"rel L2", 9, named("relative_l2_error")},
-                                        {"rel energy", 10, named("relative_energy_error")}};
+                                        {"rel L2", 9, named("relative_l2_error")}};
+    const auto measured = std::find_if(records.begin(), records.end(), [](const Record &r) {
+      return r.relative_energy_error.has_value();
+    });
+    const bool is_true  = measured != records.end() && adapt::is_true(measured->error_source);
+    columns.push_back({is_true ? "true err." : "ref. diff.", 10, named("relative_energy_error")});
     // What drives, else what every cycle computes: for an energy norm its relative value.
     const auto estimators = names_of<adapt::EstimateRecord>(records, &Record::estimates);
     if (estimators.empty())
       {
-        columns.push_back({"estimate", 9, named("relative_estimate")});
+        if (is_true)
+          columns.push_back({"ref. diff.", 10, named("relative_estimate")});
         columns.push_back({"effect.", 7, named("effectivity")});
       }
     else
       {
         const std::string name    = estimators.front();
-        const std::string heading = name.size() > 14 ? "estimate" : name;
+        const std::string heading = name.size() > 10 ? "estimate" : "est. " + name;
         const unsigned    width   = std::max<unsigned>(9, heading.size());
         columns.push_back({heading,
                            width,
@@ -315,13 +367,13 @@ namespace tetradapt::report
       }
     const auto goals = names_of<adapt::GoalRecord>(records, &Record::goals);
     if (!goals.empty())
-      columns.push_back({goals.front().size() > 14 ? "goal" : goals.front(),
+      columns.push_back({goals.front().size() > 14 ? "goal value" : goals.front(),
                          std::max<unsigned>(11, std::min<std::size_t>(goals.front().size(), 14)),
                          column_of<adapt::GoalRecord>(
                            &Record::goals, goals.front(), &adapt::GoalRecord::value, "goal", "")});
     columns.push_back({"solve s", 7, named("seconds_solve")});
     columns.push_back({"total s", 7, named("seconds_total")});
-    columns.push_back({"ref. err.", 9, named("reference_error")});
+    columns.push_back({"ref. est.", 10, named("reference_error_estimate")});
     columns.erase(std::remove_if(columns.begin(),
                                  columns.end(),
                                  [&](const TerminalColumn &column) {
@@ -329,22 +381,5 @@ namespace tetradapt::report
                                  }),
                   columns.end());
     return columns;
-  }
-
-  double
-  visible_drift(const adapt::MeshRecord &mesh)
-  {
-    return std::abs(mesh.volume_drift) > 1e-12 ? mesh.volume_drift : 0.;
-  }
-
-  const std::array<unsigned int, 8> dihedral_class_begins{{0, 5, 10, 20, 30, 40, 50, 60}};
-
-  std::string
-  dihedral_class_name(const unsigned int number)
-  {
-    const auto &begins = dihedral_class_begins;
-    return number + 1 == begins.size() ? "dihedral_from_" + std::to_string(begins[number])
-                                       : "dihedral_" + std::to_string(begins[number]) + "_to_"
-                                           + std::to_string(begins[number + 1]);
   }
 } // namespace tetradapt::report

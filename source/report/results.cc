@@ -19,11 +19,11 @@ namespace tetradapt::report
               result.computed,
               result.error,
               result.relative_error(),
-              result.estimated_error};
+              result.error_estimate};
     }
 
     const std::vector<std::string> heading{
-      "result", "exact", "computed", "error", "relative_error", "estimated_error"};
+      "result", "exact", "computed", "error", "relative_error", "error_estimate", "error_source"};
   } // namespace
 
   std::optional<double>
@@ -38,25 +38,39 @@ namespace tetradapt::report
   results_of(const scene::Scene &scene, const adapt::CycleRecord &record)
   {
     std::vector<Result> results;
-    if (scene.truth.has_energy())
+    if (scene.exact_solution.has_energy())
       {
-        const double exact = scene.truth.energy;
-        results.push_back({"energy", exact, record.energy, exact - record.energy, {}});
+        const double exact = scene.exact_solution.strain_energy;
+        results.push_back({"strain energy",
+                           exact,
+                           record.strain_energy,
+                           exact - record.strain_energy,
+                           {},
+                           "known energy"});
       }
-    const auto add_norm = [&](const std::string &name, const std::optional<double> &error) {
-      if (error)
-        results.push_back({name, 0., *error, -*error, {}});
-    };
-    if (record.true_energy_error)
-      add_norm("relative energy error", record.relative_energy_error);
-    if (scene.truth.has_displacement())
+    const auto add_norm =
+      [&](const std::string &name, const std::optional<double> &error, const std::string &source) {
+        if (error)
+          results.push_back({name, 0., *error, -*error, {}, source});
+      };
+    if (adapt::is_true(record.error_source))
+      add_norm("relative energy error",
+               record.relative_energy_error,
+               record.error_source == adapt::ErrorSource::exact ? "exact" : "known energy");
+    if (scene.exact_solution.has_displacement())
       {
-        add_norm("relative L2 error", record.relative_l2_error);
-        add_norm("relative H1 error", record.relative_h1_error);
+        add_norm("relative L2 error", record.relative_l2_error, "exact");
+        add_norm("relative H1 error", record.relative_h1_error, "exact");
       }
     for (const adapt::GoalRecord &goal : record.goals)
-      results.push_back(
-        {"goal " + goal.name, goal.exact, goal.value, goal.error, goal.estimated_error});
+      results.push_back({"goal " + goal.name,
+                         goal.exact,
+                         goal.value,
+                         goal.error,
+                         goal.error_estimate,
+                         goal.error            ? "exact"
+                         : goal.error_estimate ? "estimate goal"
+                                               : ""});
     return results;
   }
 
@@ -72,7 +86,7 @@ namespace tetradapt::report
         text += csv_text(result.name);
         for (const auto &figure : figures(result))
           text += "," + format_cell(Kind::figure, figure, 10, -1, "");
-        text += '\n';
+        text += "," + csv_text(result.error_source) + '\n';
       }
     return text;
   }
@@ -89,6 +103,7 @@ namespace tetradapt::report
         rows.push_back({result.name});
         for (const auto &figure : figures(result))
           rows.back().push_back(format_cell(Kind::figure, figure, 7, -1, "-"));
+        rows.back().push_back(result.error_source.empty() ? "-" : result.error_source);
       }
     return aligned_table(rows, 1);
   }

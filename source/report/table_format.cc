@@ -57,6 +57,24 @@ namespace tetradapt::report
     return format_number(*value, digits);
   }
 
+  bool
+  RecordColumn::has_value(const adapt::CycleRecord &record) const
+  {
+    return kind == Kind::text ? !text(record).empty() : value(record).has_value();
+  }
+
+  std::string
+  RecordColumn::cell(const adapt::CycleRecord &record,
+                     const unsigned int        digits,
+                     const int                 decimals_of_seconds,
+                     const std::string        &missing) const
+  {
+    if (kind != Kind::text)
+      return format_cell(kind, value(record), digits, decimals_of_seconds, missing);
+    const std::string word = text(record);
+    return word.empty() ? missing : word;
+  }
+
   std::string
   csv_text(const std::string &text)
   {

@@ -112,7 +112,12 @@ namespace tetradapt::report
     writer.add_boundary();
     writer.add_text("scene", scene_name);
     for (const RecordColumn &column : record_columns({event.record}))
-      if (const auto value = column.value(event.record))
+      if (column.kind == RecordColumn::Kind::text)
+        {
+          if (column.has_value(event.record))
+            writer.add_text(column.name, column.text(event.record));
+        }
+      else if (const auto value = column.value(event.record))
         writer.add_value(column.name, *value);
     writer.write(path);
   }

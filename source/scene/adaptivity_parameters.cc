@@ -72,21 +72,22 @@ namespace tetradapt::scene
              word_codec<AdaptivityParameters::Strategy>(),
              "none: one mesh. mesh list: one cycle for each mesh that Mesh lists. uniform: every "
              "tetrahedron cut into 8 each cycle. adaptive: refined where the error is.");
-      binder("Driver",
-             p.driver,
+      binder("Refinement indicator",
+             p.refinement_indicator,
              word_codec<ErrorEstimator>(),
              "adaptive: which error drives the refinement. energy, ren: the difference to the "
              "reference in the energy norm, or as relative nodal error. exact: the true error "
-             "(needs Truth/Displacement). goal: of Estimation/Goal. The others need nothing but "
+             "(needs Exact solution/Displacement). goal: of Estimation/Goal. The others need "
+             "nothing but "
              "the solution.");
       binder("Marking",
              p.marking,
              word_codec<AdaptivityParameters::Marking>(),
              "adaptive: how new sizes follow from errors: by marking tetrahedra, or (optimal "
              "size) by spreading the error evenly over a given number of tetrahedra.");
-      binder("Route",
-             p.route,
-             word_codec<AdaptivityParameters::Route>(),
+      binder("Size control",
+             p.size_control,
+             word_codec<AdaptivityParameters::SizeControl>(),
              "adaptive: how TetGen is told: an edge length at every node, or a largest volume "
              "for every tetrahedron.");
       bind_rules(p, binder);

@@ -24,7 +24,7 @@ namespace tetradapt::scene
         {"Loads", "Loads: one subsection each, with a name of your choice."},
         {"Solver", "How the linear systems are solved."},
         {"Reference", "The fine solution that the error is measured with."},
-        {"Truth", "What is known of the true solution."},
+        {"Exact solution", "What is known of the true solution."},
         {"Goals", "Values to be known: one subsection each, with a name of your choice."},
         {"Estimation", "Which error estimators are computed, beside the one that drives."},
         {"Adaptivity", "Whether and how the mesh changes from cycle to cycle."},
@@ -74,7 +74,7 @@ namespace tetradapt::scene
       in_blocks("Loads", scene.loads);
       in("Solver", scene.solver);
       in("Reference", scene.reference);
-      in("Truth", scene.truth);
+      in("Exact solution", scene.exact_solution);
       in_blocks("Goals", scene.goals);
       in("Estimation", scene.estimation);
       in("Adaptivity", scene.adaptivity);

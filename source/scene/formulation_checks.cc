@@ -69,7 +69,8 @@ namespace tetradapt::scene
       for (const ErrorEstimator which : scene.estimation.estimators)
         check_mixed_estimator(which, "Estimation/Estimators");
       if (scene.adaptivity.strategy == AdaptivityParameters::Strategy::adaptive)
-        check_mixed_estimator(scene.adaptivity.driver, "Adaptivity/Driver");
+        check_mixed_estimator(scene.adaptivity.refinement_indicator,
+                              "Adaptivity/Refinement indicator");
     }
   } // namespace
 

@@ -159,7 +159,7 @@ namespace tetradapt::scene
     }
 
     void
-    bind(TruthParameters &p, Binder &binder)
+    bind(ExactSolutionParameters &p, Binder &binder)
     {
       binder("Displacement",
              p.displacement,
@@ -170,12 +170,12 @@ namespace tetradapt::scene
              p.gradient,
              expressions_codec<9>(true),
              "Its derivatives du_x/dx; du_x/dy; du_x/dz; du_y/dx; ...; empty: by differences.");
-      binder("Energy",
-             p.energy,
+      binder("Strain energy",
+             p.strain_energy,
              number_codec(),
-             "Known a(u,u), the integral of strain : C : strain, which is twice the strain "
-             "energy and the work of the loads (with a temperature: of the whole strain, so not "
-             "twice the table's strain energy); 0: unknown.");
+             "Its strain energy, half the integral of strain : C : strain, without thermal "
+             "strain: what the tables call strain_energy, and half the work of the loads if they "
+             "act alone; 0: unknown.");
     }
 
     void
@@ -276,32 +276,34 @@ namespace tetradapt::scene
   }
 
   void
-  TruthParameters::declare(dealii::ParameterHandler &prm) const
+  ExactSolutionParameters::declare(dealii::ParameterHandler &prm) const
   {
     declare_bound(*this, prm, bind);
   }
 
   void
-  TruthParameters::parse(dealii::ParameterHandler &prm)
+  ExactSolutionParameters::parse(dealii::ParameterHandler &prm)
   {
     parse_bound(*this, prm, bind);
   }
 
   void
-  TruthParameters::check() const
+  ExactSolutionParameters::check() const
   {
     if (has_displacement())
       for (unsigned int c = 0; c < 3; ++c)
-        check_expression(displacement[c], std::string("Truth/Displacement, component ") + "xyz"[c]);
+        check_expression(displacement[c],
+                         std::string("Exact solution/Displacement, component ") + "xyz"[c]);
     require(has_displacement() || !has_gradient(),
-            "Truth/Gradient",
-            "the gradient of an unknown displacement. Give Truth/Displacement too.");
+            "Exact solution/Gradient",
+            "the gradient of an unknown displacement. Give Exact solution/Displacement too.");
     if (has_gradient())
       for (unsigned int i = 0; i < 9; ++i)
         check_expression(gradient[i],
-                         std::string("Truth/Gradient, du_") + "xyz"[i / 3] + "/d" + "xyz"[i % 3]);
-    require(energy >= 0.,
-            "Truth/Energy",
-            "must be positive, or 0 if it is unknown; it is " + text_of(energy) + ".");
+                         std::string("Exact solution/Gradient, du_") + "xyz"[i / 3] + "/d"
+                           + "xyz"[i % 3]);
+    require(strain_energy >= 0.,
+            "Exact solution/Strain energy",
+            "must be positive, or 0 if it is unknown; it is " + text_of(strain_energy) + ".");
   }
 } // namespace tetradapt::scene

@@ -12,7 +12,7 @@ namespace tetradapt::scene
 {
   namespace
   {
-    using Driver    = AdaptivityParameters::Driver;
+    using Indicator = AdaptivityParameters::RefinementIndicator;
     using Marking   = AdaptivityParameters::Marking;
     using Strategy  = AdaptivityParameters::Strategy;
     using Route     = ReferenceParameters::MeshRoute;
@@ -26,13 +26,13 @@ namespace tetradapt::scene
     }
 
     bool
-    is_driven_by(const Scene &scene, const Driver driver)
+    is_driven_by(const Scene &scene, const Indicator which)
     {
-      return is_adaptive(scene) && scene.adaptivity.driver == driver;
+      return is_adaptive(scene) && scene.adaptivity.refinement_indicator == which;
     }
 
     bool
-    is_listed(const Scene &scene, const Driver which)
+    is_listed(const Scene &scene, const Indicator which)
     {
       const auto &listed = scene.estimation.estimators;
       return std::find(listed.begin(), listed.end(), which) != listed.end();
@@ -51,12 +51,12 @@ namespace tetradapt::scene
     std::string
     user_of_extrapolation(const Scene &scene)
     {
-      if (is_driven_by(scene, Driver::energy))
+      if (is_driven_by(scene, Indicator::energy))
         return "drives the refinement";
-      if (scene.adaptivity.tolerance > 0. && !scene.truth.has_displacement()
-          && !scene.truth.has_energy())
+      if (scene.adaptivity.tolerance > 0. && !scene.exact_solution.has_displacement()
+          && !scene.exact_solution.has_energy())
         return "Adaptivity/Tolerance is measured with it";
-      if (is_listed(scene, Driver::energy))
+      if (is_listed(scene, Indicator::energy))
         return "listed in Estimation/Estimators";
       return output_of_errors(scene);
     }
@@ -64,11 +64,11 @@ namespace tetradapt::scene
     std::string
     user_of_ren(const Scene &scene)
     {
-      if (is_driven_by(scene, Driver::ren))
+      if (is_driven_by(scene, Indicator::ren))
         return "drives the refinement";
       if (scene.adaptivity.ren_tolerance > 0.)
         return "Adaptivity/REN tolerance is measured with it";
-      if (is_listed(scene, Driver::ren))
+      if (is_listed(scene, Indicator::ren))
         return "listed in Estimation/Estimators";
       if (!output_of_errors(scene).empty())
         return output_of_errors(scene);
@@ -80,17 +80,17 @@ namespace tetradapt::scene
     {
       if (!user_of_extrapolation(scene).empty())
         return user_of_extrapolation(scene);
-      return scene.truth.has_displacement() ? "" : user_of_ren(scene);
+      return scene.exact_solution.has_displacement() ? "" : user_of_ren(scene);
     }
 
     std::string
-    user_of_truth(const Scene &scene, const bool drives)
+    user_of_exact_solution(const Scene &scene, const bool drives)
     {
-      if (drives && is_driven_by(scene, Driver::exact))
+      if (drives && is_driven_by(scene, Indicator::exact))
         return "drives the refinement";
       if (scene.adaptivity.tolerance > 0.)
         return "Adaptivity/Tolerance is measured with it";
-      if (drives && is_listed(scene, Driver::exact))
+      if (drives && is_listed(scene, Indicator::exact))
         return "listed in Estimation/Estimators";
       return output_of_errors(scene);
     }
@@ -234,11 +234,11 @@ namespace tetradapt::scene
   Plan::add_error_stages(const Scene &scene)
   {
     const bool        reference   = uses_reference();
-    const bool        exact       = scene.truth.has_displacement();
+    const bool        exact       = scene.exact_solution.has_displacement();
     const std::string energy_user = user_of_extrapolation(scene);
     const std::string ren_user    = user_of_ren(scene);
-    const std::string truth_user  = user_of_truth(scene, true);
-    const std::string known_user  = user_of_truth(scene, false);
+    const std::string exact_user  = user_of_exact_solution(scene, true);
+    const std::string known_user  = user_of_exact_solution(scene, false);
     add(extrapolation,
         "difference to the reference",
         reference && !energy_user.empty(),
@@ -251,14 +251,15 @@ namespace tetradapt::scene
         reference || exact ? nothing_uses_it : "neither a reference nor an exact displacement");
     add(exact_comparison,
         "difference to the exact solution",
-        exact && !truth_user.empty(),
-        truth_user,
-        exact ? nothing_uses_it : "no Truth/Displacement is given");
+        exact && !exact_user.empty(),
+        exact_user,
+        exact ? nothing_uses_it : "no Exact solution/Displacement is given");
     add(known_energy,
         "error from the known energy",
-        scene.truth.has_energy() && !known_user.empty(),
+        scene.exact_solution.has_energy() && !known_user.empty(),
         known_user,
-        scene.truth.has_energy() ? nothing_uses_it : "no Truth/Energy is given");
+        scene.exact_solution.has_energy() ? nothing_uses_it
+                                          : "no Exact solution/Strain energy is given");
   }
 
   void
@@ -274,9 +275,9 @@ namespace tetradapt::scene
     };
     const bool drives = is_adaptive(scene) && scene.adaptivity.max_cycles > 1;
     if (drives)
-      include(scene.adaptivity.driver);
+      include(scene.adaptivity.refinement_indicator);
     for (const ErrorEstimator which : scene.estimation.estimators)
-      if (!drives || which != scene.adaptivity.driver)
+      if (!drives || which != scene.adaptivity.refinement_indicator)
         include(which);
     add(estimation,
         "error estimators",
@@ -318,7 +319,7 @@ namespace tetradapt::scene
     add(tetgen_refinement,
         "TetGen refinement",
         adaptive && !adapt.coarsening,
-        "Adaptivity/Route = " + word(adapt.route),
+        "Adaptivity/Size control = " + word(adapt.size_control),
         adaptive ? "Adaptivity/Coarsening = yes" : reason);
     add(body_remeshing,
         "meshing the body anew",

@@ -135,7 +135,7 @@ namespace tetradapt::scene
     void
     check_estimator(const Scene &scene, const ErrorEstimator which, const std::string &path)
     {
-      const bool has_u   = scene.truth.has_displacement();
+      const bool has_u   = scene.exact_solution.has_displacement();
       const bool has_ref = scene.reference.type != ReferenceParameters::Type::none;
       require(which != ErrorEstimator::energy || has_ref,
               path,
@@ -144,10 +144,11 @@ namespace tetradapt::scene
       require(which != ErrorEstimator::ren || has_ref || has_u,
               path,
               "ren compares with a reference or an exact displacement, and there is neither. Set "
-              "Reference/Type = fine mesh or give Truth/Displacement.");
+              "Reference/Type = fine mesh or give Exact solution/Displacement.");
       require(which != ErrorEstimator::exact || has_u,
               path,
-              "exact needs the exact displacement. Give Truth/Displacement, or use spr or another "
+              "exact needs the exact displacement. Give Exact solution/Displacement, or use spr or "
+              "another "
               "estimator that does not need it.");
       require(which != ErrorEstimator::richardson || scene.loads.empty() || !moves_supports(scene),
               path,
@@ -166,7 +167,7 @@ namespace tetradapt::scene
       const auto &listed = scene.estimation.estimators;
       if (std::find(listed.begin(), listed.end(), ErrorEstimator::goal) != listed.end()
           || (scene.adaptivity.strategy == AdaptivityParameters::Strategy::adaptive
-              && scene.adaptivity.driver == ErrorEstimator::goal))
+              && scene.adaptivity.refinement_indicator == ErrorEstimator::goal))
         return true;
       for (const auto &goal : scene.goals)
         if (scene.estimation.goal.empty() || goal.name == scene.estimation.goal)
@@ -214,7 +215,7 @@ namespace tetradapt::scene
     {
       using Adaptivity    = AdaptivityParameters;
       const auto &adapt   = scene.adaptivity;
-      const bool  has_u   = scene.truth.has_displacement();
+      const bool  has_u   = scene.exact_solution.has_displacement();
       const bool  has_ref = scene.reference.type != ReferenceParameters::Type::none;
       adapt.check();
       if (adapt.strategy == Adaptivity::Strategy::mesh_list)
@@ -229,25 +230,26 @@ namespace tetradapt::scene
                   + " meshes, which only Strategy = mesh list uses. Set that, or list one mesh.");
       if (adapt.strategy == Adaptivity::Strategy::adaptive)
         {
-          check_estimator(scene, adapt.driver, "Adaptivity/Driver");
+          check_estimator(scene, adapt.refinement_indicator, "Adaptivity/Refinement indicator");
           require(!adapt.coarsening || scene.mesh.source != MeshSource::bricks,
                   "Adaptivity/Coarsening",
                   "bricks have no surface to mesh anew. Use Mesh/Type = box.");
         }
       require(
-        adapt.tolerance == 0. || has_ref || has_u || scene.truth.has_energy()
+        adapt.tolerance == 0. || has_ref || has_u || scene.exact_solution.has_energy()
           || !energy_estimator(scene).empty(),
         "Adaptivity/Tolerance",
         "the error cannot be measured: there is no estimator of the energy norm, no reference "
-        "and no truth. Set Estimation/Estimators = spr, or Reference/Type = fine mesh, give "
-        "Truth/Energy or Truth/Displacement, or remove this.");
+        "and no exact solution. Set Estimation/Estimators = spr, or Reference/Type = fine mesh, "
+        "give "
+        "Exact solution/Strain energy or Exact solution/Displacement, or remove this.");
       require(adapt.goal_tolerance == 0. || !scene.goals.empty(),
               "Adaptivity/Goal tolerance",
               "the scene has no goal. Add a subsection to Goals, or remove this.");
       require(adapt.goal_tolerance == 0. || main_goal_has_error(scene),
               "Adaptivity/Goal tolerance",
               "the goal's error cannot be measured. Give its Exact value, or let the estimator "
-              "'goal' run: in Estimation/Estimators or as Adaptivity/Driver.");
+              "'goal' run: in Estimation/Estimators or as Adaptivity/Refinement indicator.");
       require(adapt.ren_tolerance == 0. || has_ref || has_u,
               "Adaptivity/REN tolerance",
               "REN cannot be measured: there is no reference and no exact displacement. Set "
@@ -267,7 +269,7 @@ namespace tetradapt::scene
     check_stiffness(*this);
     check_formulation(*this);
     check_supports(*this);
-    truth.check();
+    exact_solution.check();
     check_loads(*this);
     solver.check();
     check_reference(*this);
@@ -275,7 +277,7 @@ namespace tetradapt::scene
     check_strategy(*this);
     check_study(*this);
     output.check();
-    check_truth_gradient(*this);
+    check_exact_gradient(*this);
   }
 
   std::string

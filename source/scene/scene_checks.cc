@@ -16,14 +16,15 @@ namespace tetradapt::scene
   std::string
   energy_estimator(const Scene &scene)
   {
-    // What is left out needs a reference or a truth, or is no energy norm.
+    // What is left out needs a reference or an exact solution, or is no energy norm.
     const auto tells_energy = [](const ErrorEstimator which) {
       return which != ErrorEstimator::energy && which != ErrorEstimator::ren
              && which != ErrorEstimator::exact && which != ErrorEstimator::goal;
     };
     const auto &adapt = scene.adaptivity;
-    if (adapt.strategy == AdaptivityParameters::Strategy::adaptive && tells_energy(adapt.driver))
-      return word(adapt.driver);
+    if (adapt.strategy == AdaptivityParameters::Strategy::adaptive
+        && tells_energy(adapt.refinement_indicator))
+      return word(adapt.refinement_indicator);
     for (const ErrorEstimator which : scene.estimation.estimators)
       if (tells_energy(which))
         return word(which);
@@ -138,10 +139,10 @@ namespace tetradapt::scene
   } // namespace
 
   void
-  check_truth_gradient(const Scene &scene)
+  check_exact_gradient(const Scene &scene)
   {
     const auto &mesh = scene.mesh;
-    if (!scene.truth.has_gradient()
+    if (!scene.exact_solution.has_gradient()
         || (mesh.source != MeshSource::box && mesh.source != MeshSource::bricks))
       return;
     const dealii::Tensor<1, 3> size = mesh.upper_corner - mesh.lower_corner;
@@ -157,8 +158,9 @@ namespace tetradapt::scene
         double                largest = 0.;
         for (unsigned int i = 0; i < 9; ++i)
           {
-            const core::Expression u(scene.truth.displacement[i / 3], "Truth/Displacement");
-            const core::Expression g(scene.truth.gradient[i], "Truth/Gradient");
+            const core::Expression u(scene.exact_solution.displacement[i / 3],
+                                     "Exact solution/Displacement");
+            const core::Expression g(scene.exact_solution.gradient[i], "Exact solution/Gradient");
             given[i]    = value_or_nan(g, p);
             expected[i] = difference(u, p, i % 3, 1e-3 * size[i % 3]);
             if (std::isfinite(expected[i]))
@@ -167,12 +169,12 @@ namespace tetradapt::scene
         for (unsigned int i = 0; i < 9; ++i)
           if (std::isfinite(given[i]) && std::isfinite(expected[i]))
             require(std::abs(given[i] - expected[i]) <= 1e-3 * largest,
-                    "Truth/Gradient",
+                    "Exact solution/Gradient",
                     std::string("du_") + "xyz"[i / 3] + "/d" + "xyz"[i % 3] + " = "
-                      + scene.truth.gradient[i] + " is " + short_text(given[i]) + " at ("
+                      + scene.exact_solution.gradient[i] + " is " + short_text(given[i]) + " at ("
                       + text_of(p[0]) + ", " + text_of(p[1]) + ", " + text_of(p[2])
-                      + "), but differences of Truth/Displacement give " + short_text(expected[i])
-                      + ". Correct it, or leave Gradient empty.");
+                      + "), but differences of Exact solution/Displacement give "
+                      + short_text(expected[i]) + ". Correct it, or leave Gradient empty.");
       }
   }
 } // namespace tetradapt::scene

@@ -18,8 +18,8 @@ namespace tetradapt::scene
   std::vector<std::string>
   locking_warnings(const Scene &scene);
 
-  /** The name of the first estimator of the scene, the driver of an adaptive run first, that
-   * tells an energy norm without reference or truth; empty: none. */
+  /** The name of the first estimator of the scene, the refinement indicator of an adaptive run
+   * first, that tells an energy norm without reference or exact solution; empty: none. */
   std::string
   energy_estimator(const Scene &scene);
 
@@ -53,13 +53,13 @@ namespace tetradapt::scene
   stiffness_warning(const Scene &scene);
 
   /**
-   * Compares the gradient of the truth with differences of its displacement at
+   * Compares the exact gradient with differences of its displacement at
    * some points of a box; nothing is done for other meshes, whose inside is not
    * known yet.
    * @throws InputError naming the entry that differs.
    */
   void
-  check_truth_gradient(const Scene &scene);
+  check_exact_gradient(const Scene &scene);
 } // namespace tetradapt::scene
 
 #endif

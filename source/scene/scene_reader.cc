@@ -3,6 +3,7 @@
 
 #include "declarations.h"
 #include "prm_lines.h"
+#include "renamed.h"
 #include "values.h"
 
 #include "tetradapt/core/exceptions.h"
@@ -129,7 +130,7 @@ namespace tetradapt::scene
               refuse(names,
                      start + "Parameters: '" + name
                        + "' is no full name of a parameter, "
-                         "such as Adaptivity/Driver.");
+                         "such as Adaptivity/Refinement indicator.");
             check_name(path, names);
             if (lines.count("command line\n" + full_name(path)) > 0)
               refuse(names,
@@ -158,6 +159,7 @@ namespace tetradapt::scene
       void
       check_name(SectionPath path, const Place &place)
       {
+        refuse_old_name(full_name(path), place);
         const std::string name = path.back();
         path.pop_back();
         for (std::size_t n = 1; n <= path.size(); ++n)
@@ -229,9 +231,18 @@ namespace tetradapt::scene
           add_block(path[0], path[1], scene, prm);
       }
 
+      static void
+      refuse_old_name(const std::string &name, const Place &place)
+      {
+        const std::string text = renamed_to(name);
+        if (!text.empty())
+          refuse(place, text);
+      }
+
       [[noreturn]] void
       refuse_section(const SectionTree &parent, const SectionPath &path, const Place &place) const
       {
+        refuse_old_name(full_name(path), place);
         const std::string &name  = path.back();
         const std::string  where = full_name({path.begin(), path.end() - 1});
         std::string        text
@@ -253,6 +264,7 @@ namespace tetradapt::scene
                    const std::string &name,
                    const Place       &place) const
       {
+        refuse_old_name(full_name(path, name), place);
         std::string text
           = "unknown parameter '" + name + "'"
             + (path.empty() ? " outside of all subsections. " : " in " + full_name(path) + ". ");

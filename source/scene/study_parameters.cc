@@ -34,8 +34,8 @@ namespace tetradapt::scene
              "What ends conjugate gradients: the residual's Tolerance, or an estimate of the "
              "iterate's own error in the energy norm that is small beside the error of the mesh, "
              "foretold from the cycle before.");
-      binder("Algebraic fraction",
-             p.algebraic_fraction,
+      binder("Solver error fraction",
+             p.solver_error_fraction,
              number_codec(),
              "discretisation: how small, as a part of the error of the mesh.");
     }
@@ -120,9 +120,9 @@ namespace tetradapt::scene
             "Solver/Tolerance",
             "must be between 0 and 1, such as 1e-8; it is " + text_of(tolerance) + ".");
     require(max_iterations > 0, "Solver/Maximum iterations", "must be at least 1.");
-    require(algebraic_fraction > 0. && algebraic_fraction < 1.,
-            "Solver/Algebraic fraction",
-            "must be between 0 and 1, such as 0.1; it is " + text_of(algebraic_fraction) + ".");
+    require(solver_error_fraction > 0. && solver_error_fraction < 1.,
+            "Solver/Solver error fraction",
+            "must be between 0 and 1, such as 0.1; it is " + text_of(solver_error_fraction) + ".");
   }
 
   void

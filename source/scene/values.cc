@@ -317,7 +317,7 @@ namespace tetradapt::scene
   Codec<std::vector<std::string>>
   parameter_names_codec()
   {
-    return list_codec<std::string>("names such as Adaptivity/Driver, separated by &",
+    return list_codec<std::string>("names such as Adaptivity/Refinement indicator, separated by &",
                                    '&',
                                    read_name,
                                    same);

@@ -58,9 +58,9 @@ namespace tetradapt::scene
            "Reference/Mesh = " + word(reference.route));
       const bool adaptive = adapt.strategy == Strategy::adaptive;
       when(!adaptive,
-           {"Adaptivity/Driver",
+           {"Adaptivity/Refinement indicator",
             "Adaptivity/Marking",
-            "Adaptivity/Route",
+            "Adaptivity/Size control",
             "Adaptivity/Safeguard",
             "Adaptivity/Coarsening"},
            "Adaptivity/Strategy = " + word(adapt.strategy));

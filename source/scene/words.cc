@@ -136,12 +136,12 @@ namespace tetradapt::scene
     return table;
   }
 
-  const Words<AdaptivityParameters::Route> &
-  words(AdaptivityParameters::Route)
+  const Words<AdaptivityParameters::SizeControl> &
+  words(AdaptivityParameters::SizeControl)
   {
-    using Route = AdaptivityParameters::Route;
-    static const Words<Route> table{{Route::node_sizes, "node sizes"},
-                                    {Route::volume_constraints, "volume constraints"}};
+    using SizeControl = AdaptivityParameters::SizeControl;
+    static const Words<SizeControl> table{{SizeControl::node_sizes, "node sizes"},
+                                          {SizeControl::volume_constraints, "volume constraints"}};
     return table;
   }
 } // namespace tetradapt::scene

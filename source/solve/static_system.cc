@@ -150,10 +150,13 @@ namespace tetradapt::solve
     const Energies energies
       = compute_energies(*solution.displacement, data->materials, space.communicator());
     solution.external_work = work(space, data->forces, values);
-    solution.strain_energy = energies.stored;
     solution.energy        = data->prescribed.is_homogeneous()
                                ? 2. * solution.external_work - energies.energy
                                : energies.energy;
+    solution.strain_energy
+      = data->prescribed.is_homogeneous() && !data->materials.has_thermal_strain()
+          ? 0.5 * solution.energy
+          : energies.stored;
     return solution;
   }
 

@@ -13,7 +13,7 @@
 #include <iostream>
 
 using namespace tetradapt;
-using Route = scene::AdaptivityParameters::Route;
+using SizeControl = scene::AdaptivityParameters::SizeControl;
 
 /** All cells of these meshes have the same volume. */
 mesh::TetMesh
@@ -76,9 +76,9 @@ uniform_error()
                 << close(field.predicted_error, 0.5 * 2. * std::sqrt(n)) << ", refined "
                 << field.n_refined << ", clamped " << field.n_clamped << '\n';
     }
-  auto options  = plain_options(8. * n);
-  options.route = Route::volume_constraints;
-  auto field    = adapt::optimal_size_field(mesh, e, options);
+  auto options         = plain_options(8. * n);
+  options.size_control = SizeControl::volume_constraints;
+  auto field           = adapt::optimal_size_field(mesh, e, options);
   std::cout << "volume bounds: " << field.sizing.node_sizes.empty()
             << close(field.sizing.cell_volumes.front(), 2.3 / 8. / n) << '\n';
 
@@ -249,8 +249,8 @@ marked()
             << (field.predicted_tets - mesh.n_cells()) / 6. + 1. << " a cell, at the corner "
             << field.sizing.node_sizes[0] / h << ", untouched "
             << field.sizing.node_sizes[3] * 0.83 / (std::sqrt(3.) / 6.) << '\n';
-  options.route = Route::volume_constraints;
-  field         = adapt::marked_size_field(mesh, marking, options);
+  options.size_control = SizeControl::volume_constraints;
+  field                = adapt::marked_size_field(mesh, marking, options);
   std::cout << "bounds " << field.sizing.cell_volumes[5] * mesh.n_cells() << ' '
             << field.sizing.cell_volumes[6] << '\n';
   options.min_size = 0.61 * h;
@@ -292,13 +292,13 @@ void
 loop()
 {
   scene::AdaptivityParameters parameters;
-  parameters.strategy   = scene::AdaptivityParameters::Strategy::adaptive;
-  parameters.driver     = scene::AdaptivityParameters::Driver::exact;
-  parameters.growth     = 8.;
-  parameters.gradation  = 0.3;
-  parameters.min_ratio  = 0.25;
-  parameters.tolerance  = 0.05;
-  parameters.max_cycles = 10;
+  parameters.strategy             = scene::AdaptivityParameters::Strategy::adaptive;
+  parameters.refinement_indicator = scene::AdaptivityParameters::RefinementIndicator::exact;
+  parameters.growth               = 8.;
+  parameters.gradation            = 0.3;
+  parameters.min_ratio            = 0.25;
+  parameters.tolerance            = 0.05;
+  parameters.max_cycles           = 10;
   adapt::StoppingContext context;
   context.true_energy_error = true;
 

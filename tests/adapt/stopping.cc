@@ -29,12 +29,12 @@ struct Case
     context.reference_tets   = 1000;
     context.reference_degree = 2;
     history.resize(2);
-    history[0].tets              = 50;
-    history[1].cycle             = 1;
-    history[1].tets              = 200;
-    history[1].dofs              = 300;
-    history[1].relative_estimate = 0.1;
-    history[1].reference_error   = 0.01;
+    history[0].tets                     = 50;
+    history[1].cycle                    = 1;
+    history[1].tets                     = 200;
+    history[1].dofs                     = 300;
+    history[1].relative_estimate        = 0.1;
+    history[1].reference_error_estimate = 0.01;
   }
 
   void
@@ -60,20 +60,20 @@ tolerances()
   r.relative_estimate = 0.045;
   c.expect("reached", StopReason::tolerance, true);
   // sqrt(0.049^2 + 0.012^2) = 0.0504: the estimate alone would do.
-  r.relative_estimate = 0.049;
-  r.reference_error   = 0.012;
+  r.relative_estimate        = 0.049;
+  r.reference_error_estimate = 0.012;
   c.expect("not with the reference's error", StopReason::none);
   r.relative_estimate = 0.03;
   c.expect("reached, roughly", StopReason::tolerance, true);
   r.relative_estimate = 0.015;
   c.expect("figures below the tolerance, but saturated", StopReason::saturation);
-  r.reference_error = 0.06;
+  r.reference_error_estimate = 0.06;
   c.expect("reference worse than the tolerance", StopReason::saturation);
-  r.reference_error.reset();
+  r.reference_error_estimate.reset();
   c.expect("reference of unknown error", StopReason::tolerance, true);
 
   c.context.true_energy_error = true;
-  r.reference_error           = 0.01;
+  r.reference_error_estimate  = 0.01;
   r.relative_energy_error     = 0.06;
   c.expect("true error counts, not the estimate", StopReason::none);
   r.relative_energy_error = 0.04;
@@ -83,8 +83,8 @@ tolerances()
   c.expect("one of two tolerances", StopReason::none);
   r.mean_ren = 0.015;
   c.expect("both tolerances", StopReason::tolerance, true);
-  c.parameters.tolerance = 0.;
-  r.reference_error      = 0.04;
+  c.parameters.tolerance     = 0.;
+  r.reference_error_estimate = 0.04;
   c.expect("REN measured with a reference as wrong as the mesh", StopReason::saturation);
   c.context.true_ren = true;
   c.expect("true REN", StopReason::tolerance, true);
@@ -95,14 +95,14 @@ references()
 {
   {
     Case c;
-    c.history[1].reference_error = 0.05;
+    c.history[1].reference_error_estimate = 0.05;
     c.expect("doubtful reference", StopReason::none);
-    c.history[1].reference_error = 0.07;
+    c.history[1].reference_error_estimate = 0.07;
     c.expect("saturation", StopReason::saturation);
     c.context.true_energy_error        = true;
     c.history[1].relative_energy_error = 0.09;
     c.expect("saturation against the true error", StopReason::saturation);
-    c.parameters.driver = AdaptivityParameters::Driver::exact;
+    c.parameters.refinement_indicator = AdaptivityParameters::RefinementIndicator::exact;
     c.expect("saturated, but driven by the exact error", StopReason::none);
     c.parameters.strategy = AdaptivityParameters::Strategy::uniform;
     c.expect("saturated, uniform, true error known", StopReason::none);

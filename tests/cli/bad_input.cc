@@ -255,11 +255,13 @@ namespace
     scene("empty component", with_line(20, "set Value = 0;; 1"));
     scene("constant without value", with_line(20, "set Value = 0; 0; 1/0"));
     scene("negative size", with_line(3, "set Size = -1"));
-    scene("wrong gradient of the truth",
-          and_then("subsection Truth\nset Displacement = x*y; 0; 0\nset Gradient = y; y; 0; 0; 0; "
-                   "0; 0; 0; 0\nend"));
+    scene(
+      "wrong exact gradient",
+      and_then(
+        "subsection Exact solution\nset Displacement = x*y; 0; 0\nset Gradient = y; y; 0; 0; 0; "
+        "0; 0; 0; 0\nend"));
     scene("gradient without displacement",
-          and_then("subsection Truth\nset Gradient = 0;0;0;0;0;0;0;0;0\nend"));
+          and_then("subsection Exact solution\nset Gradient = 0;0;0;0;0;0;0;0;0\nend"));
   }
 
   void
@@ -289,15 +291,17 @@ namespace
   bad_studies()
   {
     scene("tolerance 0", and_then("subsection Solver\nset Tolerance = 0\nend"));
-    scene("negative energy", and_then("subsection Truth\nset Energy = -4\nend"));
+    scene("negative energy", and_then("subsection Exact solution\nset Strain energy = -4\nend"));
     scene("reference of unknown fineness",
           and_then("subsection Reference\nset Type = fine mesh\nend"));
     scene("reference run without a file",
           and_then("subsection Reference\nset Type = earlier run\nend"));
-    scene("driver without a reference",
+    scene("indicator without a reference",
           and_then("subsection Adaptivity\nset Strategy = adaptive\nend"));
-    scene("exact driver without truth",
-          and_then("subsection Adaptivity\nset Strategy = adaptive\nset Driver = exact\nend"));
+    scene(
+      "exact indicator without exact solution",
+      and_then(
+        "subsection Adaptivity\nset Strategy = adaptive\nset Refinement indicator = exact\nend"));
     scene("mesh list of one", and_then("subsection Adaptivity\nset Strategy = mesh list\nend"));
     scene("several meshes, no list", with_line(3, "set Volume bound = 1, 0.1"));
     scene("tolerance that cannot be measured",

@@ -157,10 +157,10 @@ main()
   // Exact solutions: u = (x^3, x y z, sin z) against u_h = 0. Densities:
   // grad: 9x^4 + (yz)^2 + (xz)^2 + (xy)^2 + cos^2 z.
   {
-    scene::TruthParameters truth;
-    truth.displacement = {{"x^3", "x*y*z", "sin(z)"}};
-    const double l2    = 1. / 7. + 1. / 27. + .5 - std::sin(2.) / 4.;
-    const double h1    = 9. / 5. + 3. / 9. + .5 + std::sin(2.) / 4.;
+    scene::ExactSolutionParameters exact_solution;
+    exact_solution.displacement = {{"x^3", "x*y*z", "sin(z)"}};
+    const double l2             = 1. / 7. + 1. / 27. + .5 - std::sin(2.) / 4.;
+    const double h1             = 9. / 5. + 3. / 9. + .5 + std::sin(2.) / 4.;
     // With eps_xx = 3x^2, eps_yy = xz, eps_zz = cos z, eps_xy = yz/2, eps_yz = xy/2:
     // 400 tr^2 + 800 eps:eps, integrated over the unit cube.
     const double c = std::sin(1.), cc = .5 + std::sin(2.) / 4.;
@@ -170,40 +170,40 @@ main()
     const double energy        = 400. * trace_squared + 800. * (diag + 2. * (1. / 36. + 1. / 36.));
     const auto   mesh          = cube(6, shaken(6, 0.2, 4));
     const auto   by_differences
-      = difference_to_exact(*interpolate(mesh, 2, zero), truth, laws, MPI_COMM_SELF);
+      = difference_to_exact(*interpolate(mesh, 2, zero), exact_solution, laws, MPI_COMM_SELF);
     std::cout << "Exact solution" << std::endl;
     check("l2", by_differences.l2, std::sqrt(l2), 1e-9);
     check("h1", by_differences.h1, std::sqrt(h1), 1e-9);
     check("energy", by_differences.energy, std::sqrt(energy), 1e-9);
     check("energy norm", by_differences.energy_norm, std::sqrt(energy), 1e-9);
-    truth.gradient = {{"3*x^2", "0", "0", "y*z", "x*z", "x*y", "0", "0", "cos(z)"}};
+    exact_solution.gradient = {{"3*x^2", "0", "0", "y*z", "x*z", "x*y", "0", "0", "cos(z)"}};
     const auto by_gradient
-      = difference_to_exact(*interpolate(mesh, 1, zero), truth, laws, MPI_COMM_SELF);
+      = difference_to_exact(*interpolate(mesh, 1, zero), exact_solution, laws, MPI_COMM_SELF);
     check("energy, gradient given", by_gradient.energy, std::sqrt(energy), 1e-7);
-    check(
-      "differences against gradient",
-      by_differences.cell_energy[100],
-      difference_to_exact(*interpolate(mesh, 2, zero), truth, laws, MPI_COMM_SELF).cell_energy[100],
-      1e-10);
+    check("differences against gradient",
+          by_differences.cell_energy[100],
+          difference_to_exact(*interpolate(mesh, 2, zero), exact_solution, laws, MPI_COMM_SELF)
+            .cell_energy[100],
+          1e-10);
     // The quadratic interpolant of a quadratic solution is exact.
-    truth.displacement = {{"x*y", "z^2", "1+x"}};
-    truth.gradient     = {};
+    exact_solution.displacement = {{"x*y", "z^2", "1+x"}};
+    exact_solution.gradient     = {};
     const auto none
       = difference_to_exact(*interpolate(mesh,
                                          2,
                                          [](const Point<3> &p) {
                                            return vector(p[0] * p[1], p[2] * p[2], 1. + p[0]);
                                          }),
-                            truth,
+                            exact_solution,
                             laws,
                             MPI_COMM_SELF);
     std::cout << "interpolant of a quadratic solution: relative error "
               << (none.energy < 1e-9 * none.energy_norm ? "below" : "ABOVE") << " 1e-9"
               << std::endl;
-    truth.displacement = {{"sqrt(x-0.5)", "0", "0"}};
+    exact_solution.displacement = {{"sqrt(x-0.5)", "0", "0"}};
     try
       {
-        difference_to_exact(*interpolate(mesh, 1, zero), truth, laws, MPI_COMM_SELF);
+        difference_to_exact(*interpolate(mesh, 1, zero), exact_solution, laws, MPI_COMM_SELF);
         std::cout << "NOT REFUSED" << std::endl;
       }
     catch (const core::InputError &)
@@ -237,9 +237,12 @@ main()
       largest = std::max(largest, sum);
     check("largest sum over a cell", largest, 2.5, 1e-10);
     check("at a point with u = 0", ren.values[0], 0., 0.);
-    scene::TruthParameters truth;
-    truth.displacement = {{"x", "0", "0"}};
-    check("mean, exact displacement", nodal_ren(*u_h, truth, MPI_COMM_SELF).mean, ren.mean, 1e-10);
+    scene::ExactSolutionParameters exact_solution;
+    exact_solution.displacement = {{"x", "0", "0"}};
+    check("mean, exact displacement",
+          nodal_ren(*u_h, exact_solution, MPI_COMM_SELF).mean,
+          ren.mean,
+          1e-10);
     check("of the reference itself",
           nodal_ren(*u, PointLocator(fine), *u, MPI_COMM_SELF).max,
           0.,

@@ -182,18 +182,18 @@ namespace
     const mechanics::MaterialMap materials(scene, *mesh);
     ReferenceField               reference;
     reference.hexahedra = field(3);
-    const ReferenceSampling sampling(reference, materials, MPI_COMM_WORLD);
-    scene::TruthParameters  truth;
-    truth.displacement = {{"x*y + 0.3", "y*y - 0.5*z", "x*z + z*z"}};
-    truth.gradient     = {{"y", "x", "0", "0", "2*y", "-0.5", "z", "0", "x + 2*z"}};
+    const ReferenceSampling        sampling(reference, materials, MPI_COMM_WORLD);
+    scene::ExactSolutionParameters exact_solution;
+    exact_solution.displacement = {{"x*y + 0.3", "y*y - 0.5*z", "x*z + z*z"}};
+    exact_solution.gradient     = {{"y", "x", "0", "0", "2*y", "-0.5", "z", "0", "x + 2*z"}};
     for (const unsigned int degree : {1, 2})
       {
         auto u_h = interpolate(mesh, degree, quadratic);
         for (unsigned int n = 0; n < u_h->n_nodes(); ++n)
           u_h->values[n][n % 3] += .05 * std::sin(1. + n);
-        const auto        d     = difference_to_hexahedra(*u_h, sampling);
-        const auto        exact = difference_to_exact(*u_h, truth, materials, MPI_COMM_WORLD);
-        const std::string name  = "P" + std::to_string(degree) + ", ";
+        const auto d     = difference_to_hexahedra(*u_h, sampling);
+        const auto exact = difference_to_exact(*u_h, exact_solution, materials, MPI_COMM_WORLD);
+        const std::string name = "P" + std::to_string(degree) + ", ";
         check(name + "norms of the reference",
               near(d.energy_norm, exact.energy_norm) && near(d.h1_norm, exact.h1_norm)
                 && near(d.l2_norm, exact.l2_norm));
@@ -206,7 +206,7 @@ namespace
         // Differences of degree 2 and squares of degree 4: not exact by the rule.
         check(name + "values to 5 %", near(d.l2, exact.l2, .05));
         const auto ren       = nodal_ren(*u_h, sampling);
-        const auto exact_ren = nodal_ren(*u_h, truth, MPI_COMM_WORLD);
+        const auto exact_ren = nodal_ren(*u_h, exact_solution, MPI_COMM_WORLD);
         check(name + "nodal errors",
               near(ren.mean, exact_ren.mean, 1e-10) && near(ren.max, exact_ren.max, 1e-10)
                 && ren.largest_distance == 0.);

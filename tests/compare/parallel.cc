@@ -61,8 +61,8 @@ main(int argc, char *argv[])
   const mechanics::MaterialMap materials(scene, *coarse);
   const auto                   u_h = interpolate(coarse, 1, u), reference = interpolate(fine, 2, u);
   const PointLocator           locator(coarse), fine_locator(fine);
-  scene::TruthParameters       truth;
-  truth.displacement = {{"sin(3*x)", "y*z", "exp(x-z)"}};
+  scene::ExactSolutionParameters exact_solution;
+  exact_solution.displacement = {{"sin(3*x)", "y*z", "exp(x-z)"}};
 
   const auto numbers = [](const Difference &d) {
     std::vector<double> all = d.cell_energy;
@@ -80,7 +80,7 @@ main(int argc, char *argv[])
   };
   report("difference to a coarse one", to_coarse(MPI_COMM_WORLD), to_coarse(MPI_COMM_SELF));
   const auto to_exact = [&](MPI_Comm communicator) {
-    return numbers(difference_to_exact(*u_h, truth, materials, communicator));
+    return numbers(difference_to_exact(*u_h, exact_solution, materials, communicator));
   };
   report("exact", to_exact(MPI_COMM_WORLD), to_exact(MPI_COMM_SELF));
   const auto ren = [&](MPI_Comm communicator) {

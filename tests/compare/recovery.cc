@@ -119,9 +119,9 @@ namespace
     const double estimate = recovery_estimate(*u_h, materials, MPI_COMM_SELF, &scene).global;
     if (degree == 2)
       return estimate;
-    scene::TruthParameters truth;
-    truth.displacement = scene.supports[0].displacement;
-    return estimate / difference_to_exact(*u_h, truth, materials, MPI_COMM_SELF).energy;
+    scene::ExactSolutionParameters exact_solution;
+    exact_solution.displacement = scene.supports[0].displacement;
+    return estimate / difference_to_exact(*u_h, exact_solution, materials, MPI_COMM_SELF).energy;
   }
 
   void
@@ -190,16 +190,16 @@ main()
       const unsigned int n    = 12;
       auto               mesh = cube(n, same);
       mesh->regions.assign(mesh->n_cells(), 0);
-      const mechanics::MaterialMap materials(scene_with(""), *cube(2, same));
-      scene::TruthParameters       truth;
+      const mechanics::MaterialMap   materials(scene_with(""), *cube(2, same));
+      scene::ExactSolutionParameters exact_solution;
       if (degree == 1)
-        truth.displacement = {{"x*x+2*y*z", "z-y*x", "3*x+z*z"}};
+        exact_solution.displacement = {{"x*x+2*y*z", "z-y*x", "3*x+z*z"}};
       else
-        truth.displacement = {{"x^3+2*x*y*z", "z-y*x^2", "3*x+z*z*y"}};
-      const ExactSolution exact(truth);
+        exact_solution.displacement = {{"x^3+2*x*y*z", "z-y*x^2", "3*x+z*z*y"}};
+      const ExactSolution exact(exact_solution);
       const auto u_h = interpolate(mesh, degree, [&](const Point<3> &p) { return exact.value(p); });
       const auto estimate = recovery_estimate(*u_h, materials, MPI_COMM_SELF);
-      const auto error    = difference_to_exact(*u_h, truth, materials, MPI_COMM_SELF);
+      const auto error    = difference_to_exact(*u_h, exact_solution, materials, MPI_COMM_SELF);
       double     worst    = 0.;
       for (unsigned int cell = 0; cell < mesh->n_cells(); ++cell)
         {

@@ -18,21 +18,21 @@ namespace
   {
     const Solved solved(scene, n);
     const auto   estimate = solved(estimate::DegreeExtrapolation());
-    const auto  &truth    = solved.comparison->to_truth();
+    const auto  &exact    = solved.comparison->to_exact_solution();
     double       worst = 0., squares = 0.;
     for (unsigned int cell = 0; cell < solved.body->n_cells(); ++cell)
       {
-        worst = std::max(worst, std::abs(estimate.indicators[cell] - truth.cell_energy[cell]));
+        worst = std::max(worst, std::abs(estimate.indicators[cell] - exact.cell_energy[cell]));
         squares += std::pow(estimate.indicators[cell], 2);
       }
-    const double index = estimate.global / truth.energy;
+    const double index = estimate.global / exact.energy;
     if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
       return;
     std::cout << name << ", P" << scene.degree << ", " << solved.body->n_cells() << " cells\n";
     check("  there is an error, of 0.5 to 30 %",
-          truth.energy > 0.005 * truth.energy_norm && truth.energy < 0.3 * truth.energy_norm);
+          exact.energy > 0.005 * exact.energy_norm && exact.energy < 0.3 * exact.energy_norm);
     check("  the estimate is the error to 2 %", std::abs(index - 1.) < 0.02);
-    check("  in every cell to 2 % of the whole", worst < 0.02 * truth.energy);
+    check("  in every cell to 2 % of the whole", worst < 0.02 * exact.energy);
     check("  root of squares", std::sqrt(squares), estimate.global, estimate.global, 1e-12);
   }
 } // namespace

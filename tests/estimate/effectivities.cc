@@ -40,9 +40,9 @@ check(const std::string        &what,
   auto solution   = system->solve(nullptr, solve::StaticSystem::Stop());
   solution.system = system;
   estimate::Comparison comparison(
-    solution.displacement, materials, on_mesh.truth, nullptr, MPI_COMM_WORLD);
+    solution.displacement, materials, on_mesh.exact_solution, nullptr, MPI_COMM_WORLD);
   const estimate::EstimateInput input{comparison, on_mesh, solution, levels};
-  const double                  error = comparison.to_truth().energy;
+  const double                  error = comparison.to_exact_solution().energy;
   for (const Range &range : ranges)
     {
       const double index = range.estimator->estimate(input).global / error;
@@ -83,10 +83,10 @@ main(int argc, char **argv)
                             "-2*cos(pi*x)*cos(pi*y)*sin(pi*z)"};
   for (unsigned int i = 0; i < 3; ++i)
     {
-      quadratic.truth.displacement[i]       = u[i];
-      quadratic.supports[0].displacement[i] = u[i];
+      quadratic.exact_solution.displacement[i] = u[i];
+      quadratic.supports[0].displacement[i]    = u[i];
     }
-  quadratic.truth.gradient.fill("");
+  quadratic.exact_solution.gradient.fill("");
   quadratic.materials[0].young_modulus = 2.98;
   quadratic.materials[0].poisson_ratio = 0.49;
   for (auto &load : quadratic.loads)

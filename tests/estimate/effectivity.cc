@@ -67,9 +67,41 @@ drives()
     }
 }
 
+/** From strain energies: 2 |W - W_h|, and from which side they come. */
+void
+strain_energies()
+{
+  using estimate::EnergySide;
+  const auto print = [](const std::string &label, const scene::Scene &scene) {
+    const EnergySide side   = estimate::strain_energy_side(scene);
+    const auto       result = estimate::error_from_strain_energy(2., 1.875, side);
+    const auto       above  = estimate::error_from_strain_energy(2., 2.125, side);
+    std::cout << label << ": W_h = 1.875: "
+              << (result.error ? std::to_string(*result.error) + ", relative "
+                                   + std::to_string(*result.relative_error)
+                               : result.warning)
+              << "; W_h = 2.125: "
+              << (above.error ? std::to_string(*above.error) : std::string("none")) << '\n';
+  };
+  scene::Scene scene;
+  scene.supports = {support("0", true)};
+  scene.loads.resize(1);
+  print("traction", scene);
+  scene.loads[0].type = scene::LoadType::temperature;
+  print("temperature", scene);
+  scene.loads.resize(2);
+  print("temperature and traction", scene);
+  scene.loads.resize(1);
+  scene.supports = {support("0.1", true)};
+  print("temperature, moved", scene);
+  scene.loads[0].type = scene::LoadType::gravity;
+  print("gravity, moved", scene);
+}
+
 int
 main()
 {
+  strain_energies();
   show("loads", 4., 3.75, Drive::loads);
   show("displacement", 4., 4.25, Drive::displacement);
   show("exact", 4., 4., Drive::loads);

@@ -176,11 +176,12 @@ namespace
       return text.str();
     };
     scene::Scene scene;
-    scene.materials          = {material("cube", E, nu)};
-    scene.supports           = {support("wall", "x < 1e-9")};
-    scene.truth.displacement = {{"x^2*(1+y)", "x*y*z", "x*z^2"}};
-    scene.truth.gradient = {{"2*x*(1+y)", "x^2", "0", "y*z", "x*z", "x*y", "z^2", "0", "2*x*z"}};
-    const auto &G        = scene.truth.gradient;
+    scene.materials                   = {material("cube", E, nu)};
+    scene.supports                    = {support("wall", "x < 1e-9")};
+    scene.exact_solution.displacement = {{"x^2*(1+y)", "x*y*z", "x*z^2"}};
+    scene.exact_solution.gradient
+      = {{"2*x*(1+y)", "x^2", "0", "y*z", "x*z", "x*y", "z^2", "0", "2*x*z"}};
+    const auto &G   = scene.exact_solution.gradient;
     const auto  sum = number(-l - m), shear = number(-m);
     scene.loads = {load("inside",
                         LoadType::body_force,
@@ -252,7 +253,7 @@ namespace
     const auto   body  = box(Point<3>(1, 1, 1), {{4, 4, 4}}, 0.2);
     const Solved linear(scene, body, 1), quadratic(scene, body, 2);
     const double error = compare::difference_to_exact(*linear.solution.displacement,
-                                                      scene.truth,
+                                                      scene.exact_solution,
                                                       *linear.materials,
                                                       MPI_COMM_WORLD)
                            .energy;
@@ -278,7 +279,7 @@ namespace
       {
         const Solved s(cubic(nu), box(Point<3>(1, 1, 1), {{4, 4, 4}}), degree);
         const auto   difference = compare::difference_to_exact(*s.solution.displacement,
-                                                             s.scene.truth,
+                                                             s.scene.exact_solution,
                                                              *s.materials,
                                                              MPI_COMM_WORLD);
         sharp(p + "cube, nu = " + (nu < .4 ? ".3" : ".49"),
@@ -319,10 +320,10 @@ namespace
   {
     // u_x = sin(3x) + y^3/4 on all sides but one.
     scene::Scene scene;
-    scene.materials          = {material("cube", 2.6, 0.3)};
-    scene.truth.displacement = {{"sin(3*x)+y^3/4", "0", "0"}};
-    scene.truth.gradient     = {{"3*cos(3*x)", "0.75*y^2", "0", "0", "0", "0", "0", "0", "0"}};
-    scene.supports           = {support("sides",
+    scene.materials                   = {material("cube", 2.6, 0.3)};
+    scene.exact_solution.displacement = {{"sin(3*x)+y^3/4", "0", "0"}};
+    scene.exact_solution.gradient = {{"3*cos(3*x)", "0.75*y^2", "0", "0", "0", "0", "0", "0", "0"}};
+    scene.supports                = {support("sides",
                               "x < 1e-9 || y < 1e-9 || y > 1-1e-9 || z < 1e-9 || z > 1-1e-9",
                               "xyz",
                               {{"sin(3*x)+y^3/4", "0", "0"}})};
@@ -335,7 +336,7 @@ namespace
         const Solved s(scene, box(Point<3>(1, 1, 1), {{n, n, n}}), degree);
         const auto   bound = s.bound();
         const double error = compare::difference_to_exact(*s.solution.displacement,
-                                                          scene.truth,
+                                                          scene.exact_solution,
                                                           *s.materials,
                                                           MPI_COMM_WORLD)
                                .energy;

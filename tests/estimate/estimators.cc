@@ -55,7 +55,7 @@ struct Case
       field.values[i] = u(field.node_position(i));
     materials  = std::make_unique<mechanics::MaterialMap>(this->scene, field.mesh());
     comparison = std::make_unique<estimate::Comparison>(
-      solution.displacement, *materials, this->scene.truth, reference, MPI_COMM_SELF);
+      solution.displacement, *materials, this->scene.exact_solution, reference, MPI_COMM_SELF);
   }
 
   /** A reference, given after construction. */
@@ -65,7 +65,7 @@ struct Case
     reference
       = std::make_shared<compare::ReferenceSampling>(std::move(field), *materials, MPI_COMM_SELF);
     comparison = std::make_unique<estimate::Comparison>(
-      solution.displacement, *materials, scene.truth, reference, MPI_COMM_SELF);
+      solution.displacement, *materials, scene.exact_solution, reference, MPI_COMM_SELF);
   }
 
   estimate::Estimate
@@ -140,10 +140,10 @@ void
 differences()
 {
   scene::Scene scene;
-  scene.materials          = {material("all", 1.)};
-  scene.truth.displacement = {{"0.02*x", "0", "0"}};
-  scene.truth.gradient     = {{"0.02", "0", "0", "0", "0", "0", "0", "0", "0"}};
-  const auto stretch       = [](const double factor) {
+  scene.materials                   = {material("all", 1.)};
+  scene.exact_solution.displacement = {{"0.02*x", "0", "0"}};
+  scene.exact_solution.gradient     = {{"0.02", "0", "0", "0", "0", "0", "0", "0", "0"}};
+  const auto stretch                = [](const double factor) {
     return [factor](const Point<3> &p) { return Tensor<1, 3>({factor * p[0], 0., 0.}); };
   };
   Case known(scene, mesh::bricks({0., 0., 0.}, {1., 1., 1.}, {{2, 2, 1}}), 1, stretch(0.018));
@@ -169,7 +169,8 @@ differences()
             << sum_of(ren.indicators) / 0.1 << '\n';
   std::cout << "computed once: "
             << (&known.comparison->to_reference() == &known.comparison->to_reference())
-            << (&known.comparison->ren() == &known.comparison->ren()) << ", truth before reference "
+            << (&known.comparison->ren() == &known.comparison->ren())
+            << ", exact solution before reference "
             << (&known.comparison->ren() != &known.comparison->ren_to_reference()) << '\n';
 }
 
@@ -291,8 +292,8 @@ interpolation_errors()
   for (unsigned int degree = 1; degree <= 2; ++degree)
     {
       scene::Scene scene;
-      scene.materials          = {material("all", 1.)};
-      scene.truth.displacement = texts[degree - 1];
+      scene.materials                   = {material("all", 1.)};
+      scene.exact_solution.displacement = texts[degree - 1];
       Case       interpolant(scene, block(6), degree, fields[degree - 1]);
       const auto estimated = interpolant.estimate(estimate::Interpolation());
       const auto exact     = interpolant.estimate(estimate::ExactEnergy());

@@ -24,14 +24,14 @@ namespace polynomials
       = degree == 1 ? Texts{{"y^2 + x*z", "x^2 - z^2", "x*y"}} : Texts{{"y^3", "x*z^2", "x^2*y"}};
     const Texts f
       = degree == 1 ? Texts{{"-0.8", "0", "-0.8"}} : Texts{{"-2.4*y", "-0.8*x", "-0.8*y"}};
-    const Texts t            = degree == 1 ? Texts{{"0.4*(x + y)", "0.4*(x - 2)", "0.4"}}
-                                           : Texts{{"0.8*x*y", "0.4*(2*x + x^2)", "0"}};
-    scene.supports           = {support(
+    const Texts t                     = degree == 1 ? Texts{{"0.4*(x + y)", "0.4*(x - 2)", "0.4"}}
+                                                    : Texts{{"0.8*x*y", "0.4*(2*x + x^2)", "0"}};
+    scene.supports                    = {support(
       "five", "x < 1e-9 || x > 1 - 1e-9 || y < 1e-9 || y > 1 - 1e-9 || z < 1e-9", "xyz", u)};
-    scene.loads              = {load("inside", scene::LoadType::body_force, "", f),
-                                load("top", scene::LoadType::traction, "z > 1 - 1e-9", t)};
-    scene.truth.displacement = u;
-    scene.truth.gradient
+    scene.loads                       = {load("inside", scene::LoadType::body_force, "", f),
+                                         load("top", scene::LoadType::traction, "z > 1 - 1e-9", t)};
+    scene.exact_solution.displacement = u;
+    scene.exact_solution.gradient
       = degree == 1
           ? std::array<std::string, 9>{{"z", "2*y", "x", "2*x", "0", "-2*z", "y", "x", "0"}}
           : std::array<std::string, 9>{
@@ -50,8 +50,8 @@ namespace polynomials
     scene.materials[0].thermal_expansion = 0.2;
     scene.supports = {support("end", "x < 1e-9", "xyz", {{"-0.1*(y^2 + z^2)", "0", "0"}})};
     scene.loads    = {load("heat", scene::LoadType::temperature, "", {{"x", "0", "0"}})};
-    scene.truth.displacement = {{"0.1*(x^2 - y^2 - z^2)", "0.2*x*y", "0.2*x*z"}};
-    scene.solver.tolerance   = 1e-11;
+    scene.exact_solution.displacement = {{"0.1*(x^2 - y^2 - z^2)", "0.2*x*y", "0.2*x*z"}};
+    scene.solver.tolerance            = 1e-11;
     return scene;
   }
 
@@ -68,7 +68,7 @@ namespace polynomials
       solution        = system->solve(nullptr, {});
       solution.system = system;
       comparison      = std::make_unique<estimate::Comparison>(
-        solution.displacement, *materials, scene.truth, nullptr, MPI_COMM_WORLD);
+        solution.displacement, *materials, scene.exact_solution, nullptr, MPI_COMM_WORLD);
     }
 
     estimate::Estimate

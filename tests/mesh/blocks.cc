@@ -6,7 +6,7 @@
 
 #include "tetradapt/mesh/blocks.h"
 #include "tetradapt/core/exceptions.h"
-#include "tetradapt/mesh/census.h"
+#include "tetradapt/mesh/mesh_totals.h"
 #include "tetradapt/mesh/tetgen.h"
 
 #include <iostream>
@@ -23,18 +23,18 @@ namespace
     const mesh::Tetgen tetgen{scene::TetgenParameters()};
     const auto         complex = mesh::blocks_complex(mesh::BlockGrid(boxes), regions);
     const auto         mesh    = tetgen.mesh(complex, {0.01, {}, {}});
-    const auto         census  = mesh::take_census(mesh);
-    std::cout << name << ": volume " << census.volume;
-    for (const auto &patch : census.patches)
+    const auto         totals  = mesh::mesh_totals(mesh);
+    std::cout << name << ": volume " << totals.volume;
+    for (const auto &patch : totals.patches)
       std::cout << ", " << patch.patch.boundary_id << ' ' << patch.patch.name << ' ' << patch.area;
-    for (const auto &[id, region] : census.regions)
+    for (const auto &[id, region] : totals.regions)
       std::cout << ", region " << id << ' ' << region.volume;
     // Finer, so that the regions' border is refined as well.
     mesh::Sizing sizing;
     sizing.node_sizes.assign(mesh.n_points(), 0.1);
-    const auto refined = mesh::take_census(tetgen.refine(mesh, sizing));
-    std::cout << (mesh::compare_censuses(census, refined, 1e-12).empty() ? ", kept by refinement"
-                                                                         : ", LOST")
+    const auto refined = mesh::mesh_totals(tetgen.refine(mesh, sizing));
+    std::cout << (mesh::compare_totals(totals, refined, 1e-12).empty() ? ", kept by refinement"
+                                                                       : ", LOST")
               << std::endl;
   }
 

@@ -4,8 +4,8 @@
 
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/mesh/bricks.h"
-#include "tetradapt/mesh/census.h"
 #include "tetradapt/mesh/mesh_checks.h"
+#include "tetradapt/mesh/mesh_totals.h"
 #include "tetradapt/mesh/quality.h"
 #include "tetradapt/mesh/red_refinement.h"
 
@@ -60,10 +60,10 @@ test_bricks()
       std::cout << n << ' ' << m << ' ' << mesh.n_points() << ' ' << mesh.n_cells() << std::endl;
     }
 
-  const TetMesh mesh   = bricks({-1., 0., 2.}, {1., 3., 3.}, {{2, 3, 4}});
-  const Census  census = take_census(mesh);
-  std::cout << "volume " << census.volume << " flux " << flux(mesh) << std::endl;
-  for (const auto &entry : census.patches)
+  const TetMesh    mesh   = bricks({-1., 0., 2.}, {1., 3., 3.}, {{2, 3, 4}});
+  const MeshTotals totals = mesh_totals(mesh);
+  std::cout << "volume " << totals.volume << " flux " << flux(mesh) << std::endl;
+  for (const auto &entry : totals.patches)
     std::cout << entry.patch.boundary_id << ' ' << entry.patch.name << ' ' << entry.n_faces << ' '
               << entry.area << std::endl;
   check("bricks are finalized", is_finalized(mesh));
@@ -107,11 +107,11 @@ test_refinement()
   check("no edge is found where there is none",
         finder.find(0, 0) == dealii::numbers::invalid_unsigned_int);
 
-  const Census coarse_census = take_census(mesh), fine_census = take_census(fine);
+  const MeshTotals coarse_totals = mesh_totals(mesh), fine_totals = mesh_totals(fine);
   std::cout << "refined: " << fine.n_points() << " points, " << fine.n_cells() << " tets, "
             << fine.faces.size() << " faces" << std::endl;
   check("refined mesh is finalized", is_finalized(fine));
-  check("volumes and areas are kept", compare_censuses(coarse_census, fine_census, 1e-14).empty());
+  check("volumes and areas are kept", compare_totals(coarse_totals, fine_totals, 1e-14).empty());
   bool middles = true;
   for (unsigned int e = 0; e < edges.edges.size(); ++e)
     middles
@@ -250,7 +250,7 @@ test_finalize()
 }
 
 void
-test_parts_and_census()
+test_parts_and_totals()
 {
   TetMesh    mesh  = bricks({0., 0., 0.}, {1., 1., 1.}, {{2, 2, 2}});
   const auto other = bricks({2., 0., 0.}, {3., 1., 1.}, {{1, 1, 1}});
@@ -268,7 +268,7 @@ test_parts_and_census()
   std::cout << "parts of cell 0, 47, 48, 53: " << part[0] << part[47] << part[48] << part[53]
             << std::endl;
 
-  const Census before = take_census(mesh);
+  const MeshTotals before = mesh_totals(mesh);
   for (auto &face : mesh.faces)
     if (face.patch == 2)
       face.patch = 3;
@@ -276,7 +276,7 @@ test_parts_and_census()
     region = 1;
   for (auto &point : mesh.points)
     point[2] *= 1.001;
-  for (const std::string &complaint : compare_censuses(before, take_census(mesh)))
+  for (const std::string &complaint : compare_totals(before, mesh_totals(mesh)))
     std::cout << complaint << std::endl;
 }
 
@@ -287,5 +287,5 @@ main()
   test_refinement();
   test_quality();
   test_finalize();
-  test_parts_and_census();
+  test_parts_and_totals();
 }

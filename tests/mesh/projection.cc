@@ -5,8 +5,8 @@
 
 #include "tetradapt/mesh/body_complex.h"
 #include "tetradapt/mesh/boundary_projection.h"
-#include "tetradapt/mesh/census.h"
 #include "tetradapt/mesh/mesh_checks.h"
+#include "tetradapt/mesh/mesh_totals.h"
 #include "tetradapt/mesh/red_refinement.h"
 #include "tetradapt/mesh/tetgen.h"
 #include "tetradapt/mesh/volume_reader.h"
@@ -137,8 +137,7 @@ namespace
     };
     const auto coarse = body(0.5);
     const auto anew   = tetgen.mesh(coarse.plc, coarse.sizing);
-    const auto lost
-      = mesh::compare_censuses(mesh::take_census(fine), mesh::take_census(anew), 1e-9);
+    const auto lost = mesh::compare_totals(mesh::mesh_totals(fine), mesh::mesh_totals(anew), 1e-9);
     const auto repeat = tetgen.mesh(body(0.5).plc, body(0.5).sizing);
     std::cout << "two regions: fewer cells " << (2 * anew.n_cells() < fine.n_cells() ? "yes" : "NO")
               << ", complaints " << lost.size() << ", the same again "

@@ -4,7 +4,7 @@
 #include "tetradapt/mesh/selection.h"
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/mesh/bricks.h"
-#include "tetradapt/mesh/census.h"
+#include "tetradapt/mesh/mesh_totals.h"
 #include "tetradapt/mesh/red_refinement.h"
 
 #include <iostream>
@@ -27,7 +27,7 @@ selector(const std::vector<int>         &ids,
 void
 print_patches(const TetMesh &mesh)
 {
-  for (const auto &entry : take_census(mesh).patches)
+  for (const auto &entry : mesh_totals(mesh).patches)
     std::cout << "  " << describe(entry.patch) << ": " << entry.n_faces << " faces, area "
               << entry.area << std::endl;
 }
@@ -73,7 +73,7 @@ main()
   const TetMesh fine = red_refine(mesh);
   print_patches(fine);
   std::cout << "nothing is lost: "
-            << compare_censuses(take_census(mesh), take_census(fine), 1e-12).empty() << std::endl;
+            << compare_totals(mesh_totals(mesh), mesh_totals(fine), 1e-12).empty() << std::endl;
 
   // A second call goes on from there.
   const auto again = select_faces(mesh, {{"end", selector({2}, {}, "y < 0.51")}});

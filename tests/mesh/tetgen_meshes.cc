@@ -4,7 +4,7 @@
 // sizes that were asked for; the same call gives the same mesh.
 
 #include "tetradapt/core/expression.h"
-#include "tetradapt/mesh/census.h"
+#include "tetradapt/mesh/mesh_totals.h"
 #include "tetradapt/mesh/size_function.h"
 #include "tetradapt/mesh/tetgen.h"
 
@@ -59,11 +59,11 @@ namespace
   void
   print(const std::string &name, const TetMesh &mesh)
   {
-    const auto census = mesh::take_census(mesh);
-    std::cout << name << ": volume " << census.volume;
-    for (const auto &patch : census.patches)
+    const auto totals = mesh::mesh_totals(mesh);
+    std::cout << name << ": volume " << totals.volume;
+    for (const auto &patch : totals.patches)
       std::cout << ", " << patch.patch.name << ' ' << patch.area;
-    for (const auto &[id, region] : census.regions)
+    for (const auto &[id, region] : totals.regions)
       std::cout << ", region " << id << ' ' << region.volume;
     std::cout << std::endl;
   }
@@ -141,9 +141,8 @@ namespace
     sizing.node_sizes.assign(box.n_points(), 0.1);
     const TetMesh refined = tetgen.refine(box, sizing);
     std::cout << "ids: everything kept "
-              << yes(
-                   mesh::compare_censuses(mesh::take_census(box), mesh::take_census(refined), 1e-12)
-                     .empty())
+              << yes(mesh::compare_totals(mesh::mesh_totals(box), mesh::mesh_totals(refined), 1e-12)
+                       .empty())
               << ", region name " << refined.region_names.at(-3) << ", selection "
               << refined.patches[6].selections.at(0) << std::endl;
   }

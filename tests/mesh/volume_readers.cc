@@ -3,7 +3,7 @@
 // boundary; then files that are damaged, each with its message.
 
 #include "tetradapt/core/exceptions.h"
-#include "tetradapt/mesh/census.h"
+#include "tetradapt/mesh/mesh_totals.h"
 #include "tetradapt/mesh/volume_reader.h"
 
 #include <algorithm>
@@ -26,12 +26,12 @@ read(const std::string &file)
 {
   try
     {
-      const TetMesh mesh   = read_volume_mesh(file);
-      const Census  census = take_census(mesh);
-      std::cout << file << ": " << census.n_points << " points, volume " << census.volume;
-      for (const auto &[id, region] : census.regions)
+      const TetMesh    mesh   = read_volume_mesh(file);
+      const MeshTotals totals = mesh_totals(mesh);
+      std::cout << file << ": " << totals.n_points << " points, volume " << totals.volume;
+      for (const auto &[id, region] : totals.regions)
         std::cout << ", region " << id << " (" << region.name << ") " << region.volume;
-      for (const auto &entry : census.patches)
+      for (const auto &entry : totals.patches)
         std::cout << ", " << describe(entry.patch) << " " << entry.area;
       std::cout << std::endl;
     }

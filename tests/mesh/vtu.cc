@@ -4,7 +4,7 @@
 
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/mesh/bricks.h"
-#include "tetradapt/mesh/census.h"
+#include "tetradapt/mesh/mesh_totals.h"
 #include "tetradapt/mesh/scalar_types.h"
 #include "tetradapt/mesh/volume_reader.h"
 #include "tetradapt/mesh/vtu_reader.h"
@@ -83,12 +83,12 @@ test_round_trip(const unsigned int degree)
             << (copy.mesh().regions == mesh->regions
                 && copy.mesh().region_names == mesh->region_names)
             << ", displacement " << same_bits(copy.values, field.values) << ", boundary "
-            << compare_censuses(take_census(*mesh), take_census(copy.mesh()), 0.).size() << ' '
+            << compare_totals(mesh_totals(*mesh), mesh_totals(copy.mesh()), 0.).size() << ' '
             << copy.mesh().patches[3].name << ", energy " << (back.values.at("energy") == 1. / 3.)
             << ", text " << back.texts.at("made by") << std::endl;
   const TetMesh again = read_volume_mesh("round_trip.vtu");
   std::cout << "as a mesh: " << (again.cells == mesh->cells) << ' '
-            << compare_censuses(take_census(*mesh), take_census(again), 0.).size() << std::endl;
+            << compare_totals(mesh_totals(*mesh), mesh_totals(again), 0.).size() << std::endl;
 
   try
     {
@@ -219,9 +219,9 @@ read(const std::string &content)
   write("bad.vtu", content);
   try
     {
-      const Census census = take_census(read_volume_mesh("bad.vtu"));
-      std::cout << "volume " << census.volume << ", regions " << census.regions.at(10).volume << ' '
-                << census.regions.at(20).volume << ", area " << census.patches[0].area << std::endl;
+      const MeshTotals totals = mesh_totals(read_volume_mesh("bad.vtu"));
+      std::cout << "volume " << totals.volume << ", regions " << totals.regions.at(10).volume << ' '
+                << totals.regions.at(20).volume << ", area " << totals.patches[0].area << std::endl;
     }
   catch (const core::InputError &error)
     {
@@ -239,13 +239,13 @@ test_variants()
         for (const bool big : {false, true})
           {
             write("variant.vtu", file_content({format, compressed, long_header, big}));
-            const TetMesh mesh   = read_volume_mesh("variant.vtu");
-            const Census  census = take_census(mesh);
+            const TetMesh    mesh   = read_volume_mesh("variant.vtu");
+            const MeshTotals totals = mesh_totals(mesh);
             ++n;
-            n_right += std::abs(census.regions.at(10).volume - 1. / 6.) < 1e-15
-                       && std::abs(census.regions.at(20).volume - 1. / 3.) < 1e-15
+            n_right += std::abs(totals.regions.at(10).volume - 1. / 6.) < 1e-15
+                       && std::abs(totals.regions.at(20).volume - 1. / 3.) < 1e-15
                        && mesh.patches[0].boundary_id == 7
-                       && std::abs(census.patches[0].area - 0.5) < 1e-15;
+                       && std::abs(totals.patches[0].area - 0.5) < 1e-15;
           }
   std::cout << n_right << " of " << n << " variants are read" << std::endl;
 }

@@ -107,9 +107,9 @@ namespace
   runs()
   {
     scene::Scene scene;
-    scene.name         = "beam";
-    scene.truth.energy = 1.;
-    const auto records = make_records();
+    scene.name                         = "beam";
+    scene.exact_solution.strain_energy = 1.;
+    const auto records                 = make_records();
     for (const auto &plot : report::plots_of_run(scene, records))
       std::cout << plot.name << ": " << count(plot.script, "<< EOD") << " data blocks, "
                 << count(plot.script, " title '") << " titles" << std::endl;

@@ -31,27 +31,27 @@ namespace
     r.cycle                 = 2;
     r.points                = 30;
     r.tets                  = 100;
-    r.energy                = 3.96;
+    r.strain_energy         = 1.98;
     r.relative_energy_error = 0.1;
-    r.true_energy_error     = true;
+    r.error_source          = adapt::ErrorSource::known_energy;
     adapt::GoalRecord tip;
-    tip.name            = "tip";
-    tip.value           = -1.5;
-    tip.exact           = -2.;
-    tip.error           = -0.5;
-    tip.estimated_error = -0.4;
+    tip.name           = "tip";
+    tip.value          = -1.5;
+    tip.exact          = -2.;
+    tip.error          = -0.5;
+    tip.error_estimate = -0.4;
     adapt::GoalRecord unknown;
     unknown.name              = "stress";
     unknown.value             = 1e-300;
     r.goals                   = {tip, unknown};
     r.mesh.requested_tets     = 123.75;
-    r.mesh.unmet_sizes        = 4;
+    r.mesh.oversized_tets     = 4;
     r.mesh.volume_drift       = -1e-16;
     r.mesh.min_dihedral       = 12.5;
     r.mesh.max_dihedral       = 150.;
     r.mesh.max_aspect_ratio   = 9.25;
     r.mesh.dihedral_histogram = {{0, 0, 5, 20, 40, 25, 8, 2}};
-    r.mesh.census             = "boundary 1: 20, 2: 22; region 0: 100, \"quoted\"";
+    r.mesh.counts_by_id       = "boundary 1: 20, 2: 22; region 0: 100, \"quoted\"";
     return r;
   }
 } // namespace
@@ -60,14 +60,14 @@ int
 main()
 {
   scene::Scene scene;
-  scene.truth.energy         = 4.;
-  adapt::CycleRecord record  = make_record();
-  const auto         results = report::results_of(scene, record);
+  scene.exact_solution.strain_energy = 2.;
+  adapt::CycleRecord record          = make_record();
+  const auto         results         = report::results_of(scene, record);
   std::cout << report::csv_results(results) << report::text_results(results) << '\n';
   std::cout << report::describe_mesh_record(record) << '\n' << report::csv_meshes({record}) << '\n';
   record.mesh.volume_drift       = -0.015;
   record.mesh.largest_projection = 0.25;
-  record.mesh.unprojected        = 3;
+  record.mesh.unprojected_points = 3;
   record.mesh.requested_tets.reset();
   std::cout << report::describe_mesh_record(record) << '\n'
             << "nothing reported: '" << report::describe_mesh_record({}) << "'\n";
@@ -98,10 +98,10 @@ main()
             << (content("results_scratch/results.txt") == report::text_results(results)) << '\n';
   fs::remove("results_scratch/results.csv");
   fs::remove("results_scratch/results.txt");
-  scene.truth.energy = 0.;
+  scene.exact_solution.strain_energy = 0.;
   worse.goals.clear();
-  worse.acceptance        = adapt::Acceptance::accepted;
-  worse.true_energy_error = false;
+  worse.acceptance   = adapt::Acceptance::accepted;
+  worse.error_source = adapt::ErrorSource::none;
   summary.run_started(scene);
   summary.cycle_done({worse, field, materials, nullptr, nullptr});
   summary.run_done("because");

@@ -36,8 +36,9 @@ namespace
   check(const std::string &file)
   {
     const scene::Scene           scene = scene::read_scene(file);
-    const core::VectorExpression u(scene.truth.displacement, "u"), f(scene.loads[0].value, "f"),
-      t(scene.loads[1].value, "t"), support(scene.supports[0].displacement, "support");
+    const core::VectorExpression u(scene.exact_solution.displacement, "u"),
+      f(scene.loads[0].value, "f"), t(scene.loads[1].value, "t"),
+      support(scene.supports[0].displacement, "support");
     const double E = scene.materials[0].young_modulus, nu = scene.materials[0].poisson_ratio;
     const double lambda = E * nu / ((1. + nu) * (1. - 2. * nu)), mu = E / (2. * (1. + nu));
 
@@ -81,7 +82,7 @@ namespace
         for (unsigned int i = 0; i < 9; ++i)
           wrong_gradient
             = std::max(wrong_gradient,
-                       std::abs(core::Expression(scene.truth.gradient[i], "gradient")(p)
+                       std::abs(core::Expression(scene.exact_solution.gradient[i], "gradient")(p)
                                 - G[i / 3][i % 3]));
         wrong_support = std::max(wrong_support, (support(p) - u(p)).norm());
       }

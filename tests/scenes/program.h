@@ -103,7 +103,10 @@ namespace program
             if (names.size() <= c && columns.empty())
               names.push_back(cell);
             else
-              columns[names.at(c)].push_back(cell.empty() ? std::nan("") : std::stod(cell));
+              {
+                columns[names.at(c)].push_back(number(cell));
+                words[names.at(c)].push_back(cell);
+              }
           if (columns.empty())
             for (const auto &name : names)
               columns[name];
@@ -118,6 +121,13 @@ namespace program
     {
       const auto cycles = columns.find("cycle");
       return cycles == columns.end() ? 0 : cycles->second.size();
+    }
+    /** The text of a cell; empty if there is no such row. */
+    std::string
+    word(const std::string &column, unsigned int row) const
+    {
+      const auto &cells = words.at(column);
+      return row < cells.size() ? cells[row] : "";
     }
     /** No number if there is no such row. */
     double
@@ -149,7 +159,7 @@ namespace program
       double largest = 0.;
       for (const auto &column : columns)
         if (column.first.find("seconds") != 0 && column.first.find("iterations") != 0
-            && column.first != "algebraic_error" && column.first != out)
+            && column.first != "algebraic_error_estimate" && column.first != out)
           for (unsigned int row = 0; row < n_rows(); ++row)
             {
               const double a = column.second[row], b = other.value(column.first, row);
@@ -162,7 +172,17 @@ namespace program
     }
 
   private:
-    std::map<std::string, std::vector<double>> columns;
+    /** No number for a word or nothing. */
+    static double
+    number(const std::string &cell)
+    {
+      char        *end   = nullptr;
+      const double value = std::strtod(cell.c_str(), &end);
+      return cell.empty() || *end != 0 ? std::nan("") : value;
+    }
+
+    std::map<std::string, std::vector<double>>      columns;
+    std::map<std::string, std::vector<std::string>> words;
   };
 
   /** A folder that is not there, or was removed. */

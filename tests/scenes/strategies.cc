@@ -57,11 +57,11 @@ namespace
   {
     names.clear();
     for (const std::string marking : {"optimal size", "maximum", "fixed fraction", "doerfler"})
-      for (const std::string route : {"node sizes", "volume constraints"})
-        for (const std::string driver : {"energy", "ren"})
-          add(marking.substr(0, 3) + "_" + route.substr(0, 4) + "_" + driver,
-              " set Marking = " + marking + "\n set Route = " + route + "\n set Driver = " + driver
-                + "\n set Maximum cycles = 4\n");
+      for (const std::string control : {"node sizes", "volume constraints"})
+        for (const std::string indicator : {"energy", "ren"})
+          add(marking.substr(0, 3) + "_" + control.substr(0, 4) + "_" + indicator,
+              " set Marking = " + marking + "\n set Size control = " + control
+                + "\n set Refinement indicator = " + indicator + "\n set Maximum cycles = 4\n");
     run_all();
     for (const auto &name : names)
       {

@@ -34,10 +34,10 @@ def adaptive_jobs(session, body):
             if not main and (degree == 1 or session.quick):
                 continue
             for tolerance in TOLERANCES[body.name, degree][:None if main and not session.quick else -1]:
-                settings = {"Adaptivity/Driver": driver, "Adaptivity/Tolerance": tolerance}
+                settings = {"Adaptivity/Refinement indicator": driver, "Adaptivity/Tolerance": tolerance}
                 yield tetradapt.job(session.output, body, f"{driver} {tolerance}", degree, settings)
     for tolerance in () if session.quick else (0.05, 0.02):
-        settings = {"Adaptivity/Driver": "energy", "Adaptivity/Tolerance": tolerance,
+        settings = {"Adaptivity/Refinement indicator": "energy", "Adaptivity/Tolerance": tolerance,
                     "Reference/Type": "hexahedra", "Reference/Tolerance": tolerance / 4,
                     "Reference/Cache": "no"}
         yield tetradapt.job(session.output, body, f"reference {tolerance}", 2, settings)

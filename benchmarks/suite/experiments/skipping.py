@@ -52,7 +52,7 @@ OF_QUICKSTART = {
 
 def run(session):
     rows = []
-    base = {"Adaptivity/Driver": "spr", "Adaptivity/Tolerance": 0.01}
+    base = {"Adaptivity/Refinement indicator": "spr", "Adaptivity/Tolerance": 0.01}
     for body in BODIES.values():
         rows += compare(session, body, 2, base, FORCED)
     rows += compare(session, QUICKSTART, 1, {}, OF_QUICKSTART)

@@ -11,7 +11,7 @@ def run(session):
     for body in BODIES.values():
         for driver in ("spr", "residual"):
             for tolerance in (0.01,) if session.quick else (0.01, 0.005):
-                settings = {"Adaptivity/Driver": driver, "Adaptivity/Tolerance": tolerance,
+                settings = {"Adaptivity/Refinement indicator": driver, "Adaptivity/Tolerance": tolerance,
                             "Output/VTU": "yes"}
                 jobs.append(session.tetradapt.job(session.output, body, f"stages {driver} {tolerance}", 2,
                                                   settings))

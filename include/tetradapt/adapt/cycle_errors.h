@@ -32,9 +32,8 @@ namespace tetradapt::adapt
 
   struct MeasuredErrors
   {
-    bool        true_energy_error = false; ///< CycleRecord::energy_error is the true one
-    std::string warning;                   ///< empty, or one sentence
-    /** Of the driver, one a cell; empty if nothing is to be refined. */
+    std::string warning; ///< empty, or one sentence
+    /** Of the refinement indicator, one a cell; empty if nothing is to be refined. */
     std::vector<double> indicators;
     /** The root of the sum of the squared indicators that would reach the scene's
      * tolerance; 0: there is none that the indicators know of. */

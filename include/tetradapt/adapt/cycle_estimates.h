@@ -18,8 +18,8 @@ namespace tetradapt::adapt
   };
 
   /**
-   * Runs the scene's estimators, the driver first, and fills record.estimates.
-   * @return the driver's indicators; empty if nothing drives.
+   * Runs the scene's estimators, the refinement indicator first, and fills record.estimates.
+   * @return the refinement indicator's values; empty if nothing drives.
    */
   std::vector<double>
   run_estimators(const ErrorSources &sources,
@@ -44,7 +44,8 @@ namespace tetradapt::adapt
    * empty if none is left.
    */
   std::optional<double>
-  spread_of_local_indices(const std::vector<double> &indicators, const std::vector<double> &errors);
+  deviation_of_local_effectivity(const std::vector<double> &indicators,
+                                 const std::vector<double> &errors);
 } // namespace tetradapt::adapt
 
 #endif

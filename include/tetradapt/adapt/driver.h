@@ -61,9 +61,8 @@ namespace tetradapt::adapt
       solve::StaticSolution                 solution;
       std::unique_ptr<estimate::Comparison> comparison;
       std::vector<double>                   indicators;
-      bool        true_energy_error     = false; ///< energy_error is the true one
-      double      wanted_indicator_norm = 0.;    ///< see MeasuredErrors
-      CycleEnergy energy;
+      double                                wanted_indicator_norm = 0.; ///< see MeasuredErrors
+      CycleEnergy                           energy;
     };
 
     void

@@ -8,7 +8,7 @@
 
 namespace tetradapt::adapt
 {
-  /** Shape, census and volume of @p mesh. About 0.2 s for a million cells.
+  /** Shape, totals and volume of @p mesh. About 0.2 s for a million cells.
    * @param first_volume of the run's first mesh. */
   void
   describe_mesh(const mesh::TetMesh &mesh, double first_volume, MeshRecord &record);
@@ -26,9 +26,9 @@ namespace tetradapt::adapt
    * @param node_sizes one a point of that mesh.
    */
   unsigned long
-  count_unmet_sizes(const mesh::TetMesh         &mesh,
-                    const compare::PointLocator &locator,
-                    const std::vector<double>   &node_sizes);
+  count_oversized_tets(const mesh::TetMesh         &mesh,
+                       const compare::PointLocator &locator,
+                       const std::vector<double>   &node_sizes);
 
   /** The edge length that @p mesh has at each point: the geometric mean of the
    * equivalent edges around it, weighted by volume. */

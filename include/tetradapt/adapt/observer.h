@@ -26,7 +26,7 @@ namespace tetradapt::adapt
     /** Of the local indices eta_K / e_K, where an exact displacement is known: the
      * standard deviation of their natural logarithms, each weighted by e_K^2. 0: each cell's
      * error is known up to one common factor. */
-    std::optional<double> spread;
+    std::optional<double> local_deviation;
     double                seconds = 0.;
   };
 
@@ -35,27 +35,36 @@ namespace tetradapt::adapt
   {
     std::string           name;
     double                value = 0.;
-    std::optional<double> exact;           ///< the scene's Exact value
-    std::optional<double> error;           ///< exact - value
-    std::optional<double> estimated_error; ///< with its sign, where the estimator 'goal' ran
-    std::optional<double> effectivity;     ///< estimated over true error
+    std::optional<double> exact;          ///< the scene's Exact value
+    std::optional<double> error;          ///< exact - value
+    std::optional<double> error_estimate; ///< with its sign, where the estimator 'goal' ran
+    std::optional<double> effectivity;    ///< estimated over true error
   };
 
-  /** How the mesh of a cycle came out beside what was asked for. */
+  /** The mesh of a cycle compared with what was asked for. */
   struct MeshRecord
   {
-    std::optional<double> requested_tets;          ///< as the size field foretold
-    unsigned long         unmet_sizes        = 0;  ///< cells more than twice as large as asked for
+    std::optional<double> requested_tets;          ///< as the size field predicted
+    unsigned long         oversized_tets     = 0;  ///< cells more than twice as large as asked for
     double                volume_drift       = 0.; ///< relative, against the first mesh
     double                largest_projection = 0.; ///< farthest way of a point to the boundary
-    unsigned long         unprojected  = 0; ///< points that an inversion kept from going there
+    unsigned long         unprojected_points = 0;  ///< not moved, as a cell would be inverted
     double                min_dihedral = 0., max_dihedral = 0.; ///< degrees
     double                max_aspect_ratio = 0.;
     /** Cells by their smallest dihedral angle: below 5, 10, 20, 30, 40, 50, 60, and
      * above degrees. */
     std::array<unsigned long, 8> dihedral_histogram{};
     /** Boundary faces by id and cells by region, as one line. */
-    std::string census;
+    std::string counts_by_id;
+  };
+
+  /** What an error is measured against. */
+  enum class ErrorSource
+  {
+    none,         ///< no error is measured
+    exact,        ///< the exact displacement
+    known_energy, ///< the exact solution's strain energy
+    reference     ///< the reference solution
   };
 
   /** What became of a cycle's mesh. */
@@ -71,34 +80,47 @@ namespace tetradapt::adapt
     unsigned int          cycle  = 0;
     unsigned long         points = 0, tets = 0, dofs = 0;
     std::optional<double> mean_ren, max_ren;
-    /** Against the truth where one is given, else against the reference; the energy
-     * norm else as an estimator tells it. */
+    /** Measured against the exact solution where one is given, else against the reference.
+     * Empty where there is neither: nothing here is estimated. */
     std::optional<double> l2_error, relative_l2_error;
     std::optional<double> h1_error, relative_h1_error;
     std::optional<double> energy_error, relative_energy_error;
+    ErrorSource           error_source              = ErrorSource::none; ///< of energy_error
+    ErrorSource           displacement_error_source = ErrorSource::none; ///< of L2, H1 and REN
     /** The difference to the reference, or without one the first estimator of the energy
      * norm: absolute and relative. */
     std::optional<double> estimate, relative_estimate;
-    /** Whether energy_error is the true one, by an exact displacement or a known energy; else
-     * it is an estimate or the difference to a reference. */
-    bool true_energy_error = false;
-    /** The reference's own estimated relative energy error. */
-    std::optional<double> reference_error;
-    /** estimate / energy_error, where a truth is known. */
+    std::string           estimate_source; ///< "reference", or the estimator's name
+    /** The reference's own relative energy error, as estimated or by the known energy. */
+    std::optional<double> reference_error_estimate;
+    /** estimate / energy_error, where the error is measured. */
     std::optional<double> effectivity;
     double                strain_energy           = 0.;
     double                max_displacement        = 0.;
     unsigned int          iterations              = 0;
     unsigned int          iterations_to_tolerance = 0; ///< see solve::StaticSolution
-    std::optional<double> algebraic_error;             ///< energy norm
+    std::optional<double> algebraic_error;             ///< energy norm, estimated
     /** a(u_h,u_h). */
     double                      energy     = 0.;
     Acceptance                  acceptance = Acceptance::accepted;
-    std::vector<EstimateRecord> estimates; ///< the driver's first
+    std::vector<EstimateRecord> estimates; ///< the refinement indicator first
     std::vector<GoalRecord>     goals;
     MeshRecord                  mesh;
     double seconds_mesh = 0., seconds_solve = 0., seconds_estimate = 0., seconds_total = 0.;
   };
+
+  inline bool
+  is_true(const ErrorSource source)
+  {
+    return source == ErrorSource::exact || source == ErrorSource::known_energy;
+  }
+
+  /** The relative energy error of a cycle if one is measured, else the estimate. */
+  inline std::optional<double>
+  relative_error_or_estimate(const CycleRecord &record)
+  {
+    return record.relative_energy_error ? record.relative_energy_error : record.relative_estimate;
+  }
 
   /** One finished cycle; references are valid during the call only. */
   struct CycleEvent

@@ -26,7 +26,8 @@ namespace tetradapt::adapt
    * in the mesh's unit. */
   struct SizeFieldOptions
   {
-    scene::AdaptivityParameters::Route route = scene::AdaptivityParameters::Route::node_sizes;
+    scene::AdaptivityParameters::SizeControl size_control
+      = scene::AdaptivityParameters::SizeControl::node_sizes;
     /** The p of the formula below. Every p leads to the same mesh in the end, one
      * with equal errors; a lower one puts more of the next cells where the largest
      * errors are. Measured: 1 is at edge singularities 5 to 10 % better than 2 for
@@ -51,12 +52,12 @@ namespace tetradapt::adapt
     double min_size = 0., max_size = 0.;        ///< 0: none
     double gradation         = 0.3;             ///< h(x) <= h(y) + g |x-y|; 0: none
     double reduction         = 0.5;             ///< marked cells: new over old size
-    double radius_edge_ratio = 1.414;           ///< TetGen's -q, for the volume route
+    double radius_edge_ratio = 1.414;           ///< TetGen's -q, for volume constraints
     /** The next mesh fills the body anew, so that cells may grow; else they are only
-     * split. The route is by node sizes then. */
+     * split. Sizes are given at nodes then. */
     bool coarsening = false;
-    /** Tetrahedra obtained over tetrahedra predicted; 0: what was measured for the
-     * route on average. A caller that goes through several cycles can pass what
+    /** Tetrahedra obtained over tetrahedra predicted; 0: what was measured for this
+     * size control on average. A caller that goes through several cycles can pass what
      * the last one told, next_obtained_over_predicted(). */
     double obtained_over_predicted = 0.;
     /** The error is predicted cell by cell, as if new sizes made all cells equally good; that
@@ -145,7 +146,7 @@ namespace tetradapt::adapt
 
   /**
    * Sizes that refine the marked cells by options.reduction and leave the others
-   * alone as far as TetGen's quality bounds allow. With the volume route, marked
+   * alone as far as TetGen's quality bounds allow. With volume constraints, marked
    * cells get a bound and others none. With node sizes, a vertex of a marked cell
    * gets the volume-weighted geometric mean of the sizes around it, those of
    * unmarked cells being the ones they have (measured: with the marked cells' size

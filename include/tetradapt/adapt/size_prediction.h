@@ -65,7 +65,7 @@ namespace tetradapt::adapt
     double
     error() const;
 
-    /** The field, its figures and TetGen's sizes for the route. */
+    /** The field, its figures and TetGen's sizes for the size control. */
     SizeField
     field() const;
 

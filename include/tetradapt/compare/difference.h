@@ -66,10 +66,10 @@ namespace tetradapt::compare
    * @throws InputError if an expression does not parse or is not finite in a cell.
    */
   Difference
-  difference_to_exact(const mesh::NodalField       &u_h,
-                      const scene::TruthParameters &truth,
-                      const mechanics::MaterialMap &materials,
-                      MPI_Comm                      communicator);
+  difference_to_exact(const mesh::NodalField               &u_h,
+                      const scene::ExactSolutionParameters &exact_solution,
+                      const mechanics::MaterialMap         &materials,
+                      MPI_Comm                              communicator);
 
   /**
    * The 2015 report's relative error norm of a node, REN = |P-Q'| / |P0-Q'|: P0
@@ -106,9 +106,9 @@ namespace tetradapt::compare
   /** The same with the reference positions from an exact displacement. Collective.
    * @throws InputError as difference_to_exact(). */
   NodalRen
-  nodal_ren(const mesh::NodalField       &u_h,
-            const scene::TruthParameters &truth,
-            MPI_Comm                      communicator);
+  nodal_ren(const mesh::NodalField               &u_h,
+            const scene::ExactSolutionParameters &exact_solution,
+            MPI_Comm                              communicator);
 } // namespace tetradapt::compare
 
 #endif

@@ -18,7 +18,7 @@ namespace tetradapt::compare
   {
   public:
     /** @throws InputError if an expression does not parse or if there is none. */
-    explicit ExactSolution(const scene::TruthParameters &truth);
+    explicit ExactSolution(const scene::ExactSolutionParameters &exact_solution);
 
     Tensor<1, 3>
     value(const Point<3> &point) const

@@ -22,13 +22,13 @@ namespace tetradapt::estimate
   {
   public:
     /**
-     * Keeps references to @p materials and @p truth.
+     * Keeps references to @p materials and @p exact_solution.
      *
      * @param sampling of the reference, made once a run; null if there is none.
      */
     Comparison(std::shared_ptr<const mesh::NodalField>           displacement,
                const mechanics::MaterialMap                     &materials,
-               const scene::TruthParameters                     &truth,
+               const scene::ExactSolutionParameters             &exact_solution,
                std::shared_ptr<const compare::ReferenceSampling> sampling,
                MPI_Comm                                          communicator);
 
@@ -40,7 +40,7 @@ namespace tetradapt::estimate
     bool
     has_exact_displacement() const
     {
-      return truth.has_displacement();
+      return exact_solution.has_displacement();
     }
     const mesh::NodalField &
     displacement() const
@@ -65,7 +65,7 @@ namespace tetradapt::estimate
     /** Difference to the exact displacement. @throws core::InputError if the
      * scene gives none. */
     const compare::Difference &
-    to_truth();
+    to_exact_solution();
 
     /** Nodal relative error norms, against the exact displacement where there is
      * one, else the reference. @throws core::InputError if there is neither. */
@@ -87,7 +87,7 @@ namespace tetradapt::estimate
 
     std::shared_ptr<const mesh::NodalField>           u_h;
     const mechanics::MaterialMap                     &materials;
-    const scene::TruthParameters                     &truth;
+    const scene::ExactSolutionParameters             &exact_solution;
     std::shared_ptr<const compare::ReferenceSampling> sampling;
     MPI_Comm                                          communicator;
 

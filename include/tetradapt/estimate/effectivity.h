@@ -46,6 +46,28 @@ namespace tetradapt::estimate
   KnownEnergyError
   error_from_known_energy(double known_energy, double energy, Drive drive);
 
+  /** How the strain energies of meshes lie to the true one. */
+  enum class EnergySide
+  {
+    below,  ///< mechanical loads act alone: the body is stiffer on a mesh
+    above,  ///< no mechanical load acts: the true strain energy is the least possible
+    unknown ///< mechanical loads with prescribed displacements or temperatures
+  };
+
+  /** @throws core::InputError if an expression of a support does not compile. */
+  EnergySide
+  strain_energy_side(const scene::Scene &scene);
+
+  /**
+   * The same from strain energies W = 1/2 int (eps - eps_th) : C : (eps - eps_th), which
+   * differ from the true one by half the square of the error's energy norm. relative_error
+   * is over sqrt(2 W).
+   *
+   * @param known_energy W > 0. @param energy of a Galerkin solution.
+   */
+  KnownEnergyError
+  error_from_strain_energy(double known_energy, double energy, EnergySide side);
+
   /** Estimated over true error; empty if either is unknown or the true one zero. */
   std::optional<double>
   effectivity(const std::optional<double> &estimate, const std::optional<double> &true_error);

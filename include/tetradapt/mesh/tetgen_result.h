@@ -2,7 +2,7 @@
 #ifndef tetradapt_mesh_tetgen_result_h
 #define tetradapt_mesh_tetgen_result_h
 
-#include "tetradapt/mesh/census.h"
+#include "tetradapt/mesh/mesh_totals.h"
 #include "tetradapt/mesh/tetgen_protocol.h"
 
 #include <string>
@@ -26,12 +26,15 @@ namespace tetradapt::mesh
   /**
    * Compares a mesh to what it was made from.
    *
-   * @param tolerance as for compare_censuses().
+   * @param tolerance as for compare_totals().
    * @return the relative change of the whole volume.
    * @throws NumericalError saying what changed: the volume, a patch, a region.
    */
   double
-  check_kept(const Census &before, const Census &after, double tolerance, const std::string &what);
+  check_kept(const MeshTotals  &before,
+             const MeshTotals  &after,
+             double             tolerance,
+             const std::string &what);
 } // namespace tetradapt::mesh
 
 #endif

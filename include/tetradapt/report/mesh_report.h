@@ -11,12 +11,12 @@
 namespace tetradapt::report
 {
   /** mesh.csv: a row a cycle with everything of MeshRecord, the classes of dihedral
-   * angles and the census among it. */
+   * angles and the totals among it. */
   std::string
   csv_meshes(const std::vector<adapt::CycleRecord> &records);
 
   /** What was asked for and what came of it, one line, then the shares of the classes of
-   * dihedral angles, then the census; without an end of line. Empty if the record has
+   * dihedral angles, then the totals; without an end of line. Empty if the record has
    * nothing about its mesh. */
   std::string
   describe_mesh_record(const adapt::CycleRecord &record);

@@ -18,9 +18,10 @@ namespace tetradapt::report
   {
     enum class Kind
     {
-      count,  ///< an integer
-      figure, ///< any number
-      seconds ///< a time
+      count,   ///< an integer
+      figure,  ///< any number
+      seconds, ///< a time
+      text     ///< a word
     };
     std::string name; ///< in convergence.csv: letters, digits, '_', '-', '.' only
     Kind        kind = Kind::figure;
@@ -29,18 +30,39 @@ namespace tetradapt::report
     /** What the figure is about, for tables in parts: "estimator spr", "goal tip", "mesh";
      * empty: the cycle as a whole. */
     std::string part;
+    /** Of Kind::text, in place of value: the word; empty where a cycle does not have it. */
+    std::function<std::string(const adapt::CycleRecord &)> text = {};
+
+    /** Whether @p record has the figure or the word. */
+    bool
+    has_value(const adapt::CycleRecord &record) const;
+
+    /** The cell of a table, as format_cell() makes it. */
+    std::string
+    cell(const adapt::CycleRecord &record,
+         unsigned int              digits,
+         int                       decimals_of_seconds,
+         const std::string        &missing) const;
   };
 
   /**
    * The columns of convergence.csv for the cycles of one run or of several. First those
    * that every run has, in an order that does not change; then whatever a cycle has: of
    * each estimator estimate_<name>, relative_estimate_<name>, effectivity_<name>,
-   * spread_<name> and seconds_<name>, of each goal goal_<name>, goal_<name>_exact, _error,
-   * _estimated_error and _effectivity, and of the mesh what was asked for and what came of
-   * it. Of the latter, a column is there if a record has a figure for it.
+   * local_effectivity_deviation_<name> and seconds_<name>, of each goal goal_<name>,
+   * goal_<name>_exact, _error, _error_estimate and _effectivity, and of the mesh what was asked for
+   * and what came of it. Of the latter, a column is there if a record has a figure for it.
+   * doc/columns.md has the formula and the unit of each.
    */
   std::vector<RecordColumn>
   record_columns(const std::vector<adapt::CycleRecord> &records);
+
+  /** All columns that record_columns() can give for estimators and goals of these names;
+   * @p with_projection: also those about points that were moved to a curved boundary. */
+  std::vector<RecordColumn>
+  possible_columns(const std::vector<std::string> &estimators,
+                   const std::vector<std::string> &goals,
+                   bool                            with_projection);
 
   /** A column of the terminal's table. */
   struct TerminalColumn

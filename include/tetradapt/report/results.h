@@ -17,8 +17,11 @@ namespace tetradapt::report
     std::string           name;
     std::optional<double> exact;
     double                computed = 0.;
-    std::optional<double> error;           ///< exact - computed
-    std::optional<double> estimated_error; ///< as an estimator tells it, with its sign
+    std::optional<double> error;          ///< exact - computed
+    std::optional<double> error_estimate; ///< by the estimator 'goal', with its sign
+    /** What error is measured against ("exact", "known energy"), else what gives
+     * error_estimate ("estimate goal"); empty: nothing tells. */
+    std::string error_source;
 
     /** |error / exact|. */
     std::optional<double>
@@ -26,9 +29,9 @@ namespace tetradapt::report
   };
 
   /**
-   * What @p record says of everything that @p scene knows the truth of or calls a goal: the
-   * energy a(u,u) beside the known one, the relative errors in norms (whose exact value is
-   * zero), and the goals. Empty if the scene has neither truth nor goals.
+   * What @p record says of everything that @p scene knows exactly or calls a goal: the strain
+   * energy and the known one, the relative errors in norms (whose exact value is zero), and
+   * the goals. Empty if the scene has neither an exact solution nor goals.
    */
   std::vector<Result>
   results_of(const scene::Scene &scene, const adapt::CycleRecord &record);
@@ -45,7 +48,7 @@ namespace tetradapt::report
   /**
    * Says in the end what the run has found: the results of the last cycle that was
    * accepted go to the log and to results.csv and results.txt. Does nothing for a scene
-   * without truth and goals.
+   * without an exact solution and goals.
    */
   class ResultsSummary : public adapt::Observer
   {

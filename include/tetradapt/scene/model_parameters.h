@@ -112,15 +112,15 @@ namespace tetradapt::scene
   };
 
   /** What is known of the true solution; any of these may be empty. */
-  struct TruthParameters
+  struct ExactSolutionParameters
   {
     /** Exact displacement as expressions in x, y, z. */
     std::array<std::string, 3> displacement;
     /** Its gradient du_i/dx_j, row by row; empty: by differences of order six. */
     std::array<std::string, 9> gradient;
-    /** Known value of a(u,u), twice the strain energy; 0: unknown. It equals the
-     * work F(u) of the loads on the displacement they cause. */
-    double energy = 0.;
+    /** Known strain energy, 1/2 int (eps - eps_th) : C : (eps - eps_th); 0: unknown. Where
+     * loads act alone, it is half of their work F(u) on the displacement they cause. */
+    double strain_energy = 0.;
 
     bool
     has_displacement() const
@@ -135,7 +135,7 @@ namespace tetradapt::scene
     bool
     has_energy() const
     {
-      return energy != 0.;
+      return strain_energy != 0.;
     }
     void
     declare(dealii::ParameterHandler &prm) const;

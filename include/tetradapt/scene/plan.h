@@ -12,7 +12,7 @@ namespace tetradapt::scene
 {
   /**
    * Which stages a scene needs and which it does without, each with the reason.
-   * Decided from the scene alone, before any work; the driver asks needs() and
+   * Decided from the scene alone, before any work; the loop asks needs() and
    * does not build what is skipped.
    */
   class Plan
@@ -40,7 +40,7 @@ namespace tetradapt::scene
       nodal_ren,            ///< relative nodal error of the 2015 report
       exact_comparison,     ///< difference to the exact displacement
       known_energy,         ///< energy error from the known energy
-      estimation,           ///< error estimators that need neither reference nor truth
+      estimation,           ///< error estimators that need neither reference nor exact solution
       goal_values,          ///< evaluating the goals
       dual_solution,        ///< solving for what the error does to a goal
       marking,              ///< choosing the tetrahedra to refine

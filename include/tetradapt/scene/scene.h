@@ -30,7 +30,7 @@ namespace tetradapt::scene
     std::vector<LoadParameters>     loads;
     SolverParameters                solver;
     ReferenceParameters             reference;
-    TruthParameters                 truth;
+    ExactSolutionParameters         exact_solution;
     std::vector<GoalParameters>     goals;
     EstimationParameters            estimation;
     AdaptivityParameters            adaptivity;

@@ -33,8 +33,8 @@ namespace tetradapt::scene
       residual,      ///< the tolerance
       discretisation ///< the iterate's own error, estimated, is small beside that of the mesh
     };
-    Stopping stopping           = Stopping::residual;
-    double   algebraic_fraction = 0.1; ///< discretisation: of the error of the mesh
+    Stopping stopping              = Stopping::residual;
+    double   solver_error_fraction = 0.1; ///< discretisation: of the error of the mesh
 
     void
     declare(dealii::ParameterHandler &prm) const;
@@ -96,7 +96,7 @@ namespace tetradapt::scene
       adaptive
     };
     /** Which indicator drives the refinement. */
-    using Driver = ErrorEstimator;
+    using RefinementIndicator = ErrorEstimator;
     enum class Marking
     {
       maximum,        ///< eta_K >= lambda max eta
@@ -105,16 +105,17 @@ namespace tetradapt::scene
       optimal_size    ///< no marking: a size field that equidistributes the error
     };
     /** How sizes are given to TetGen. */
-    enum class Route
+    enum class SizeControl
     {
       node_sizes,        ///< an edge length at every node (-m)
       volume_constraints ///< a bound on the volume of every tetrahedron (-a)
     };
-    Strategy strategy = Strategy::none;
-    Driver   driver   = Driver::energy;
-    Marking  marking  = Marking::optimal_size;
-    Route    route    = Route::node_sizes;
-    double   lambda   = 0.8; ///< maximum rule
+    Strategy            strategy             = Strategy::none;
+    RefinementIndicator refinement_indicator = RefinementIndicator::energy;
+    Marking             marking              = Marking::optimal_size;
+    SizeControl         size_control         = SizeControl::node_sizes;
+
+    double lambda  = 0.8;   ///< maximum rule
     double min_new = 0.05;  ///< maximum rule: lambda is lowered until at least this fraction of the
                             ///< cells is marked
     double fraction  = 0.2; ///< fixed fraction

@@ -18,10 +18,10 @@ namespace tetradapt::scene
    */
   struct VariationParameters
   {
-    std::string                           name;
-    std::vector<std::string>              parameters; ///< full names: "Adaptivity/Driver"
-    std::vector<std::vector<std::string>> cases;      ///< one value a parameter in each
-    std::vector<std::string>              labels;     ///< one a case for tables, or none
+    std::string              name;
+    std::vector<std::string> parameters;          ///< full names: "Adaptivity/Refinement indicator"
+    std::vector<std::vector<std::string>> cases;  ///< one value a parameter in each
+    std::vector<std::string>              labels; ///< one a case for tables, or none
 
     void
     declare(dealii::ParameterHandler &prm) const;

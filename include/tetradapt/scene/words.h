@@ -19,19 +19,19 @@ namespace tetradapt::scene
   using Words = std::vector<std::pair<E, std::string>>;
 
   /** All words of the argument's type; its value does not matter. */
-  const Words<Formulation>                    &words(Formulation);
-  const Words<MeshSource>                     &words(MeshSource);
-  const Words<GoalType>                       &words(GoalType);
-  const Words<ErrorEstimator>                 &words(ErrorEstimator);
-  const Words<MeshParameters::Projection>     &words(MeshParameters::Projection);
-  const Words<SolverParameters::Stopping>     &words(SolverParameters::Stopping);
-  const Words<LoadType>                       &words(LoadType);
-  const Words<SolverParameters::Type>         &words(SolverParameters::Type);
-  const Words<ReferenceParameters::Type>      &words(ReferenceParameters::Type);
-  const Words<ReferenceParameters::MeshRoute> &words(ReferenceParameters::MeshRoute);
-  const Words<AdaptivityParameters::Strategy> &words(AdaptivityParameters::Strategy);
-  const Words<AdaptivityParameters::Marking>  &words(AdaptivityParameters::Marking);
-  const Words<AdaptivityParameters::Route>    &words(AdaptivityParameters::Route);
+  const Words<Formulation>                       &words(Formulation);
+  const Words<MeshSource>                        &words(MeshSource);
+  const Words<GoalType>                          &words(GoalType);
+  const Words<ErrorEstimator>                    &words(ErrorEstimator);
+  const Words<MeshParameters::Projection>        &words(MeshParameters::Projection);
+  const Words<SolverParameters::Stopping>        &words(SolverParameters::Stopping);
+  const Words<LoadType>                          &words(LoadType);
+  const Words<SolverParameters::Type>            &words(SolverParameters::Type);
+  const Words<ReferenceParameters::Type>         &words(ReferenceParameters::Type);
+  const Words<ReferenceParameters::MeshRoute>    &words(ReferenceParameters::MeshRoute);
+  const Words<AdaptivityParameters::Strategy>    &words(AdaptivityParameters::Strategy);
+  const Words<AdaptivityParameters::Marking>     &words(AdaptivityParameters::Marking);
+  const Words<AdaptivityParameters::SizeControl> &words(AdaptivityParameters::SizeControl);
 
   /** The word for @p value, for example "optimal size". */
   template <class E>

@@ -23,7 +23,8 @@ namespace tetradapt::solve
      * norm) less by delta^2, while F and a alone err by terms of first order. So E minus
      * it is |||u - u_h|||^2 for any iterate u_h, and it rises on a better mesh only. */
     double energy = 0.;
-    /** Stored energy 1/2 int (eps - eps_th):C:(eps - eps_th). */
+    /** 1/2 int (eps - eps_th):C:(eps - eps_th), where eps_th is the thermal strain. Without
+     * temperatures and with fixed supports half of energy, and as exact as it is. */
     double strain_energy = 0.;
     /** F(u_h): tractions, body forces and thermal loads on the displacement. */
     double       external_work = 0.;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#ifndef tetradapt_mesh_census_h
-#define tetradapt_mesh_census_h
+#ifndef tetradapt_mesh_mesh_totals_h
+#define tetradapt_mesh_mesh_totals_h
 
 #include "tetradapt/mesh/tet_mesh.h"
 
 namespace tetradapt::mesh
 {
   /** What a mesh consists of; remeshing must keep all of it but the counts. */
-  struct Census
+  struct MeshTotals
   {
     struct PatchEntry
     {
@@ -28,8 +28,8 @@ namespace tetradapt::mesh
   };
 
   /** Counts, areas and volumes of a finalized mesh. */
-  Census
-  take_census(const TetMesh &mesh);
+  MeshTotals
+  mesh_totals(const TetMesh &mesh);
 
   /**
    * What @p after lost against @p before, a sentence each; empty if all is well:
@@ -39,7 +39,7 @@ namespace tetradapt::mesh
    * whole volume or area. Patches are compared by number.
    */
   std::vector<std::string>
-  compare_censuses(const Census &before, const Census &after, double tolerance = 1e-6);
+  compare_totals(const MeshTotals &before, const MeshTotals &after, double tolerance = 1e-6);
 
   /** "patch 3, boundary id 7 (clamp), selected by support 'left'" */
   std::string

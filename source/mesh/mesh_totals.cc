@@ -1,52 +1,52 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "tetradapt/mesh/census.h"
+#include "tetradapt/mesh/mesh_totals.h"
 
 #include <cmath>
 #include <sstream>
 
 namespace tetradapt::mesh
 {
-  Census
-  take_census(const TetMesh &mesh)
+  MeshTotals
+  mesh_totals(const TetMesh &mesh)
   {
-    Census census;
-    census.n_points = mesh.n_points();
-    census.n_cells  = mesh.n_cells();
-    census.n_faces  = mesh.faces.size();
+    MeshTotals totals;
+    totals.n_points = mesh.n_points();
+    totals.n_cells  = mesh.n_cells();
+    totals.n_faces  = mesh.faces.size();
 
-    census.patches.resize(mesh.patches.size());
+    totals.patches.resize(mesh.patches.size());
     for (unsigned int p = 0; p < mesh.patches.size(); ++p)
-      census.patches[p].patch = mesh.patches[p];
+      totals.patches[p].patch = mesh.patches[p];
     for (const BoundaryFace &face : mesh.faces)
       {
-        Census::PatchEntry &entry = census.patches[face.patch];
-        const double        area  = face_area_vector(mesh, face).norm();
+        MeshTotals::PatchEntry &entry = totals.patches[face.patch];
+        const double            area  = face_area_vector(mesh, face).norm();
         ++entry.n_faces;
         entry.area += area;
-        census.area += area;
+        totals.area += area;
       }
 
     // Cells of one region mostly follow each other: no search a cell.
-    Census::RegionEntry *entry  = nullptr;
-    int                  region = 0;
+    MeshTotals::RegionEntry *entry  = nullptr;
+    int                      region = 0;
     for (unsigned int c = 0; c < mesh.n_cells(); ++c)
       {
         if (entry == nullptr || mesh.regions[c] != region)
           {
             region = mesh.regions[c];
-            entry  = &census.regions[region];
+            entry  = &totals.regions[region];
           }
         ++entry->n_cells;
         entry->volume += cell_volume(mesh, c);
       }
-    for (auto &[id, region_entry] : census.regions)
+    for (auto &[id, region_entry] : totals.regions)
       {
         const auto name = mesh.region_names.find(id);
         if (name != mesh.region_names.end())
           region_entry.name = name->second;
-        census.volume += region_entry.volume;
+        totals.volume += region_entry.volume;
       }
-    return census;
+    return totals;
   }
 
 
@@ -68,7 +68,7 @@ namespace tetradapt::mesh
   {
     /** "region 2 (muscle)" */
     std::string
-    describe_region(const int id, const Census::RegionEntry &region)
+    describe_region(const int id, const MeshTotals::RegionEntry &region)
     {
       return "region " + std::to_string(id) + (region.name.empty() ? "" : " (" + region.name + ")");
     }
@@ -95,7 +95,7 @@ namespace tetradapt::mesh
 
 
   std::vector<std::string>
-  compare_censuses(const Census &before, const Census &after, const double tolerance)
+  compare_totals(const MeshTotals &before, const MeshTotals &after, const double tolerance)
   {
     std::vector<std::string> complaints;
     compare_measure(
