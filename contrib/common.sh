@@ -6,7 +6,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 build_packages="cmake ninja-build g++ ccache mold libdeal.ii-dev libtet1.5-dev libcgal-dev
   libsuitesparse-dev libpugixml-dev zlib1g-dev libmuparser-dev mpi-default-bin"
-test_packages="numdiff perl gnuplot-nox"
+test_packages="numdiff perl gnuplot-nox python3"
 
 say() { printf '%s\n' "$*" >&2; }
 fail() {
