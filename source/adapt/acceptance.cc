@@ -47,7 +47,7 @@ namespace tetradapt::adapt
   why_energy_cannot_tell(const scene::Scene &scene, const mesh::TetMesh &mesh)
   {
     if (scene.formulation == scene::Formulation::mixed)
-      return "a solution in mixed form is no minimum of the energy";
+      return "a solution in mixed form does not minimise the energy";
     for (const auto &load : scene.loads)
       if (load.type == scene::LoadType::nodal_force)
         return "the forces at nodes of Loads/" + load.name + " grow with the mesh";
@@ -59,7 +59,7 @@ namespace tetradapt::adapt
                           mesh,
                           "Supports/" + support.name))
           return "the displacements of Supports/" + support.name
-                 + " are not linear, so that each mesh has others";
+                 + " are not linear, so that they differ from mesh to mesh";
     return "";
   }
 

@@ -112,12 +112,12 @@ namespace tetradapt::adapt
                                                               : "Adaptivity/Safeguard = no";
         is_tested                = reason.empty();
         if (!is_tested)
-          log.info("Meshes are accepted without a look at their energy: " + reason + ".");
+          log.detail("Meshes are accepted without comparing their energy: " + reason + ".");
       }
     warn_of_flat_cells();
     start.reset();
     predicted_error = 0.;
-    log.info((number == 0 ? "Initial mesh: " : "Mesh " + std::to_string(number) + ": ")
+    log.info((number == 0 ? "Mesh: " : "Mesh " + std::to_string(number) + ": ")
              + describe_mesh(*mesh, current.record));
   }
 
@@ -232,7 +232,7 @@ namespace tetradapt::adapt
       {
         std::ostringstream text;
         text << "The largest displacement is " << record.max_displacement << " and the energy "
-             << record.energy << "; errors can be told of energies between " << smallest_energy
+             << record.energy << "; errors can be computed for energies between " << smallest_energy
              << " and " << largest_energy << '.' << advice;
         throw core::NumericalError(text.str());
       }
@@ -332,9 +332,9 @@ namespace tetradapt::adapt
       text << ", " << cycle.record.iterations << " iterations";
     if (cycle.record.iterations_to_tolerance > cycle.record.iterations)
       text << " instead of about " << cycle.record.iterations_to_tolerance
-           << " to Solver/Tolerance: what is left, " << *cycle.record.algebraic_error
-           << " in the energy norm, is small beside the error of the mesh";
-    log.info(text.str());
+           << " to Solver/Tolerance: the remaining error, " << *cycle.record.algebraic_error
+           << " in the energy norm, is small compared with the error of the mesh";
+    log.detail(text.str());
   }
 
   StopDecision

@@ -27,7 +27,7 @@ namespace tetradapt::adapt
       return parameters;
     }
 
-    /** The factor by which the error falls: as the size field foretells, but not less than
+    /** The factor by which the error falls: as the size field predicts, but not less than
      * the number of tetrahedra leads one to expect. */
     double
     predicted_factor(const std::vector<double> &indicators,
@@ -87,7 +87,7 @@ namespace tetradapt::adapt
       const auto scope = timer.scope("mesh");
       use(mesh_maker.uniform(*mesh, edges_of(*cycle.solution.displacement)));
     }
-    foretold_reduction = 0.;
+    predicted_reduction = 0.;
     predict_error(cycle.record, std::pow(0.5, scene.degree));
     prepare_start(cycle);
   }
@@ -111,35 +111,35 @@ namespace tetradapt::adapt
   }
 
   void
-  Driver::refine_mesh(Cycle &cycle, const SizeField &field, const bool anew)
+  Driver::refine_mesh(Cycle &cycle, const SizeField &field, const bool from_scratch)
   {
     const unsigned int           old_tets = mesh->n_cells();
     const compare::PointLocator &locator  = cycle.comparison->locator();
-    foretold_reduction                    = field.predicted_reduction;
-    foretold_from                         = compare::root_of_squares(cycle.indicators);
-    if (anew)
+    predicted_reduction                   = field.predicted_reduction;
+    predicted_from                        = compare::root_of_squares(cycle.indicators);
+    if (from_scratch)
       {
         const mesh::EdgeTable *edges = edges_of(*cycle.solution.displacement);
-        use(mesh_maker.made_anew(
+        use(mesh_maker.made_from_scratch(
           *mesh, field, locator, edges != nullptr ? *edges : mesh::build_edges(*mesh)));
       }
     else
       use(mesh_maker.refined(*mesh, field, locator));
     std::ostringstream text;
-    text << (anew ? "Made anew" : "Refined") << " from " << old_tets << " to " << mesh->n_cells()
-         << " tetrahedra (" << std::lround(field.predicted_tets)
+    text << (from_scratch ? "Made from scratch" : "Refined") << " from " << old_tets << " to "
+         << mesh->n_cells() << " tetrahedra (" << std::lround(field.predicted_tets)
          << " predicted): " << describe_mesh(*mesh, current.record);
-    log.info(text.str());
+    log.detail(text.str());
   }
 
   StopDecision
   Driver::adapt_mesh(Cycle &cycle)
   {
     SizeField field;
-    if (foretold_reduction > 0.)
+    if (predicted_reduction > 0.)
       reduction_power
-        = next_reduction_power(foretold_reduction,
-                               compare::root_of_squares(cycle.indicators) / foretold_from,
+        = next_reduction_power(predicted_reduction,
+                               compare::root_of_squares(cycle.indicators) / predicted_from,
                                reduction_power);
     {
       const auto scope = timer.scope("marking");
@@ -152,20 +152,20 @@ namespace tetradapt::adapt
     if (largest == 0. || is_exact || field.n_refined == 0)
       return decide_nothing_to_refine(is_exact ? 0. : largest);
 
-    const auto         old_mesh   = mesh;
-    const unsigned int old_tets   = mesh->n_cells();
-    const bool         anew       = plan.needs(Plan::body_remeshing);
-    const bool         can_insist = scene.adaptivity.marking == Adaptivity::Marking::optimal_size;
+    const auto         old_mesh     = mesh;
+    const unsigned int old_tets     = mesh->n_cells();
+    const bool         from_scratch = plan.needs(Plan::body_remeshing);
+    const bool         can_insist   = scene.adaptivity.marking == Adaptivity::Marking::optimal_size;
     for (unsigned int attempt = 0; attempt < 4; ++attempt)
       {
         {
           const auto scope = timer.scope("mesh");
-          refine_mesh(cycle, field, anew);
+          refine_mesh(cycle, field, from_scratch);
         }
-        if (mesh->n_cells() != old_tets || !can_insist || anew)
+        if (mesh->n_cells() != old_tets || !can_insist || from_scratch)
           break;
         // Sizes that are just not below what TetGen would split change nothing: the
-        // factor, learnt from a few cells, was too large.
+        // factor, learned from a few cells, was too large.
         mesh                    = old_mesh;
         obtained_over_predicted = 0.5 * field.obtained_over_predicted;
         const auto scope        = timer.scope("marking");
@@ -178,7 +178,7 @@ namespace tetradapt::adapt
                                    static_cast<double>(mesh->n_cells()) / old_tets,
                                    scene.degree));
     prepare_start(cycle);
-    return anew ? StopDecision() : decide_new_mesh(old_tets, mesh->n_cells());
+    return from_scratch ? StopDecision() : decide_new_mesh(old_tets, mesh->n_cells());
   }
 
   StopDecision

@@ -36,9 +36,8 @@ namespace tetradapt::adapt
           made.swept = moves.swept_volume / mesh::total_volume(mesh);
           if (moves.n_held > 0)
             log.warning(std::to_string(moves.n_held)
-                        + " points of the boundary could not be moved to where the body's surface "
-                          "is without spoiling a tetrahedron; they are tried again on the next "
-                          "mesh.");
+                        + " points of the boundary could not be moved to the body's surface "
+                          "without spoiling a tetrahedron; the next mesh tries again.");
         }
       if (first_volume == 0.)
         first_volume = mesh::total_volume(mesh);
@@ -58,7 +57,7 @@ namespace tetradapt::adapt
     std::ostringstream text;
     text << "The mesh's volume differs from that inside the surface by "
          << 100. * (mesh::total_volume(mesh) / projection->true_volume() - 1.) << " %";
-    log.info(text.str());
+    log.detail(text.str());
   }
 
   mesh::TetMesh
@@ -80,7 +79,7 @@ namespace tetradapt::adapt
     std::ostringstream text;
     text << "The sizes of " << scene.mesh.size_field << ", of " << sizes.n_cells()
          << " tetrahedra, gave " << mesh.n_cells() << " in " << report.passes << " passes";
-    log.info(text.str());
+    log.detail(text.str());
     if (report.cap_reached)
       log.warning("TetGen/Steiner points stopped the refinement to Mesh/Size field: "
                   + std::to_string(report.oversized_cells)
@@ -122,11 +121,11 @@ namespace tetradapt::adapt
   }
 
   mesh::TetMesh
-  MeshMaker::mesh_anew(const mesh::TetMesh   &old,
-                       const SizeField       &field,
-                       const mesh::EdgeTable &edges) const
+  MeshMaker::mesh_from_scratch(const mesh::TetMesh   &old,
+                               const SizeField       &field,
+                               const mesh::EdgeTable &edges) const
   {
-    log.progress("TetGen meshes the body anew");
+    log.progress("TetGen meshes the body from scratch");
     try
       {
         const mesh::BodyComplex body = mesh::body_complex(old, field.node_sizes, edges);
@@ -138,9 +137,10 @@ namespace tetradapt::adapt
       }
     catch (const std::runtime_error &error)
       {
-        log.warning("The body could not be meshed anew, so that its tetrahedra are refined only "
-                    "this time. "
-                    + std::string(error.what()));
+        log.warning(
+          "The body could not be meshed from scratch, so that its tetrahedra are refined only "
+          "this time. "
+          + std::string(error.what()));
       }
     return refine(old, field);
   }
@@ -161,14 +161,14 @@ namespace tetradapt::adapt
   }
 
   NewMesh
-  MeshMaker::made_anew(const mesh::TetMesh         &old,
-                       const SizeField             &field,
-                       const compare::PointLocator &locator,
-                       const mesh::EdgeTable       &edges)
+  MeshMaker::made_from_scratch(const mesh::TetMesh         &old,
+                               const SizeField             &field,
+                               const compare::PointLocator &locator,
+                               const mesh::EdgeTable       &edges)
   {
     return make(
       [&](NewMesh &made) {
-        mesh::TetMesh mesh         = mesh_anew(old, field, edges);
+        mesh::TetMesh mesh         = mesh_from_scratch(old, field, edges);
         made.record.requested_tets = field.predicted_tets;
         made.record.oversized_tets = count_oversized_tets(mesh, locator, field.node_sizes);
         return mesh;

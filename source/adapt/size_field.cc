@@ -107,7 +107,7 @@ namespace tetradapt::adapt
   double
   default_obtained_over_predicted(const SizeFieldOptions &options)
   {
-    // Measured with TetGen 1.5.0: on meshes made anew 1.3 to 1.6; over some hundred cycles
+    // Measured with TetGen 1.5.0: on meshes made from scratch 1.3 to 1.6; over some hundred cycles
     // of refinement, growth 2 to 4, on fields with singular edges and layers, 1.3 to 1.9
     // with node sizes and 0.9 to 1.5 with volume constraints.
     if (options.coarsening)
@@ -299,7 +299,7 @@ namespace tetradapt::adapt
       if (volumes[p] > 0.)
         field.node_sizes[p]
           = refined[p] || options.coarsening ? std::exp(logs[p] / volumes[p]) : kept_sizes[p];
-    // A mesh made anew has more cells than the sizes of the old one have on average.
+    // A mesh made from scratch has more cells than the sizes of the old one have on average.
     if (options.coarsening)
       for (double &size : field.node_sizes)
         size *= std::cbrt(default_obtained_over_predicted(options));

@@ -70,9 +70,9 @@ namespace tetradapt::adapt
 
 
 
-    /** The reference's error beside the mesh's, as half a sentence. */
+    /** The reference's error compared with the mesh's, as half a sentence. */
     std::string
-    beside(const StoppingContext &context, const CycleRecord &record)
+    compared_errors(const StoppingContext &context, const CycleRecord &record)
     {
       const bool is_true = context.true_energy_error && record.relative_energy_error;
       return "its own relative energy error is " + number(*record.reference_error_estimate)
@@ -192,7 +192,8 @@ namespace tetradapt::adapt
       if (trust == ReferenceTrust::saturated)
         {
           decision.reason = StopReason::saturation;
-          text = "the reference is hardly better than the mesh: " + beside(context, record);
+          text
+            = "the reference is hardly better than the mesh: " + compared_errors(context, record);
         }
       else if (context.reference_tets > 0 && context.degree >= context.reference_degree
                && record.tets >= context.reference_tets)
@@ -206,8 +207,8 @@ namespace tetradapt::adapt
       else
         {
           if (trust == ReferenceTrust::doubtful && (drives || measured_with_reference(context)))
-            decision.warnings.push_back(
-              "Figures measured with the reference are rough: " + beside(context, record) + ".");
+            decision.warnings.push_back("Figures measured with the reference are rough: "
+                                        + compared_errors(context, record) + ".");
           return;
         }
       text
@@ -222,7 +223,7 @@ namespace tetradapt::adapt
         {
           decision.reason = StopReason::none;
           if (measured_with_reference(context))
-            decision.warnings.push_back("What is measured is the reference's error: " + text);
+            decision.warnings.push_back("The figures measure the reference's error: " + text);
         }
     }
 
@@ -325,7 +326,7 @@ namespace tetradapt::adapt
     else
       check_limits(parameters, context, record, decision);
 
-    // A body meshed anew has as many cells by chance.
+    // A body meshed from scratch has as many cells by chance.
     if (!decision.stop() && history.size() > 1 && parameters.strategy == Strategy::adaptive
         && !parameters.coarsening)
       {
@@ -367,9 +368,9 @@ namespace tetradapt::adapt
     if (old_tets == new_tets)
       {
         decision.reason = StopReason::no_new_tets;
-        decision.text
-          = "Stopped without convergence: TetGen returned the same " + std::to_string(new_tets)
-            + " tetrahedra (look at the cap on Steiner points and at the kept boundary).";
+        decision.text   = "Stopped without convergence: TetGen returned the same "
+                        + std::to_string(new_tets)
+                        + " tetrahedra (look at TetGen/Steiner points and TetGen/Keep boundary).";
       }
     return decision;
   }
@@ -385,8 +386,8 @@ namespace tetradapt::adapt
       {
         decision.reason = StopReason::no_better_mesh;
         decision.text
-          = "Stopped without convergence: two meshes made from that of cycle "
-            + std::to_string(last.cycle) + " were worse by their energy, and cutting each of its "
+          = "Stopped without convergence: two meshes made from the mesh of cycle "
+            + std::to_string(last.cycle) + " had worse energies, and cutting each of its "
             + std::to_string(last.tets)
             + " tetrahedra into eight would exceed the limits on tetrahedra or "
               "unknowns (look at the refinement indicator, the marking and the maximum ratio).";

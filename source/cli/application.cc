@@ -7,6 +7,7 @@
 #include "tetradapt/cli/run_scene.h"
 #include "tetradapt/cli/run_study.h"
 #include "tetradapt/core/exceptions.h"
+#include "tetradapt/mechanics/constitutive_law.h"
 #include "tetradapt/scene/plan.h"
 
 #include <deal.II/base/mpi.h>
@@ -204,7 +205,7 @@ namespace tetradapt::cli
         return Outcome::done;
       case Options::Action::print_parameters:
         if (launch.first)
-          scene::print_parameters(std::cout, options.format);
+          scene::print_parameters(std::cout, options.format, mechanics::law_names());
         return Outcome::done;
       case Options::Action::validate:
         return validate(options, launch.first);
@@ -212,7 +213,8 @@ namespace tetradapt::cli
         break;
       }
     RunOptions run_options;
-    run_options.quiet = options.quiet;
+    run_options.quiet   = options.quiet;
+    run_options.verbose = options.verbose;
     for (int i = 0; i < argc; ++i)
       run_options.command_line += (i == 0 ? "" : " ") + quoted(argv[i]);
     if (!launch.by_launcher)

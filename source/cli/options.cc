@@ -16,7 +16,8 @@ namespace tetradapt::cli
                                                 "--validate",
                                                 "--set",
                                                 "--output-directory",
-                                                "--quiet"};
+                                                "--quiet",
+                                                "--verbose"};
 
     scene::ParameterFormat
     format_of(const std::string &text)
@@ -77,6 +78,8 @@ namespace tetradapt::cli
           name = "--help";
         if (name == "-q")
           name = "--quiet";
+        if (name == "-v")
+          name = "--verbose";
         if (name == "--set")
           options.settings.push_back(needed_value("'Section/Name=value'"));
         else if (name == "--output-directory")
@@ -108,6 +111,8 @@ namespace tetradapt::cli
           options.action = Options::Action::version;
         else if (name == "--validate")
           options.action = Options::Action::validate;
+        else if (name == "--verbose")
+          options.verbose = true;
         else
           options.quiet = true;
       }
@@ -142,28 +147,37 @@ namespace tetradapt::cli
   {
     return R"(Usage: tetradapt [options] scene.prm [scene.prm ...]
 
-Solves each scene with finite elements on tetrahedra, measures the error against a
-reference, and lets TetGen refine the mesh until the error is small.
+Solves each scene with finite elements on tetrahedra, measures or estimates the
+error, and lets TetGen refine the mesh until the error is small.
 
-  --set 'Section/Name=value'   set a parameter, as if it stood in the scene's file;
-                               repeatable. Example: --set 'Loads/tip/Value=0; 0; -2'
-  --output-directory FOLDER    write there, not to output/<scene>; several scenes write
-                               to folders with their names in it
-  --validate                   read and check the scenes, print what each needs and
-                               skips, and run nothing
-  --print-parameters[=FORMAT]  print all parameters with defaults and documentation;
-                               FORMAT is prm (default), json or markdown
+  --set 'Section/Name=value'   set a parameter, as if it stood in the scene's
+                               file; repeatable:
+                               --set 'Loads/tip/Value=0; 0; -2'
+  --output-directory FOLDER    write there, not to output/<scene>; with several
+                               scenes, to folders in it with their names
+  --validate                   read and check the scenes, print what each needs
+                               and skips, and run nothing
+  --print-parameters[=FORMAT]  print all parameters with defaults and
+                               documentation; FORMAT is prm (default), json or
+                               markdown
+  -v, --verbose                print the plan, meshes, solvers and times also,
+                               which log.txt always has
   -q, --quiet                  print nothing but warnings and errors
-  --version                    print the versions of the program and its libraries
+  --version                    print the versions of program and libraries
   -h, --help                   print this text
 
-Several scenes run one after another; one that fails does not stop the others. A scene
-with a subsection Study runs once for every combination of its values, each in a folder
-of its own, and ends with one table (study.csv) of all.
+Several scenes run one after another; one that fails does not stop the others.
+A scene with a subsection Study runs once for every combination of its values,
+each in a folder of its own, and ends with one table (study.csv) of all.
 In parallel: mpirun -np 2 tetradapt scene.prm
 
-Exit code: 0 all done; 1 a computation failed; 2 bad input (also if, with several
-scenes, a computation failed as well). Messages go to stderr, tables to stdout.
+What it does not do: materials other than linear elastic, large displacements
+or strains, contact, buckling, dynamics, plasticity or failure, shells, beams
+and elements other than tetrahedra.
+
+Exit code: 0 all done; 1 a computation failed; 2 bad input (also if, with
+several scenes, a computation failed as well). Messages go to stderr, tables to
+stdout. doc/columns.md explains every figure.
 )";
   }
 } // namespace tetradapt::cli

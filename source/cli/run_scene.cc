@@ -26,8 +26,9 @@ namespace tetradapt::cli
     report::TerminalSink::Options
     sink_options(const RunOptions &options)
     {
-      auto sink  = report::TerminalSink::stderr_options(options.quiet);
-      sink.brief = options.brief;
+      auto sink    = report::TerminalSink::stderr_options(options.quiet);
+      sink.brief   = options.brief;
+      sink.verbose = options.verbose;
       return sink;
     }
 
@@ -88,6 +89,12 @@ namespace tetradapt::cli
         return directory.files_to_look_at();
       }
 
+      std::string
+      files_in_short() const
+      {
+        return directory.files_in_short();
+      }
+
     private:
       core::Log                                    &log;
       std::unique_ptr<report::TerminalSink>         terminal;
@@ -103,13 +110,13 @@ namespace tetradapt::cli
                    MPI_Comm            communicator,
                    const core::Log    &log)
     {
-      log.info(options.command_line);
-      log.info((scene.title.empty() ? scene.name : scene.title) + " (" + scene.file + "), "
-               + std::to_string(dealii::Utilities::MPI::n_mpi_processes(communicator))
-               + " MPI rank(s)");
+      const unsigned int n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
+      log.detail(options.command_line);
+      log.info((scene.title.empty() ? scene.name : scene.title) + " (" + scene.file + ")"
+               + (n_ranks > 1 ? ", " + std::to_string(n_ranks) + " MPI ranks" : ""));
       for (const auto &warning : scene.warnings())
         log.warning(warning);
-      log.info(plan.text());
+      log.detail(plan.text());
     }
   } // namespace
 
@@ -146,11 +153,12 @@ namespace tetradapt::cli
           watchers->log_failure(scene.with_place(error.what()));
         throw;
       }
-    log.info(timer.table());
+    log.detail(timer.table());
     if (first)
       {
         watchers->close_log();
-        log.info(watchers->files_to_look_at());
+        log.detail(watchers->files_to_look_at());
+        log.info(watchers->files_in_short());
       }
   }
 } // namespace tetradapt::cli

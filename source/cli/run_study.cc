@@ -54,6 +54,18 @@ namespace tetradapt::cli
       return key;
     }
 
+    /** What tells the runs of a plot apart, where that is more than one thing. */
+    std::string
+    plot_key(const scene::Scene &study)
+    {
+      std::string lines;
+      for (std::size_t v = 1; v < study.variations.size(); ++v)
+        lines += (v == 1 ? "" : ", ") + study.variations[v].name;
+      return lines.empty()
+               ? ""
+               : "colours: " + study.variations[0].name + "; lines and points: " + lines;
+    }
+
     std::vector<report::PlottedRun>
     plotted(const std::vector<StudyRun> &runs, const std::vector<StudyOutcome> &outcomes)
     {
@@ -131,7 +143,7 @@ namespace tetradapt::cli
 
     // What each run says at length is in its own log.txt.
     RunOptions run_options = options;
-    run_options.brief      = true;
+    run_options.brief      = !options.verbose;
     std::vector<StudyOutcome> outcomes(runs.size());
     for (std::size_t i = 0; i < runs.size(); ++i)
       {
@@ -166,8 +178,9 @@ namespace tetradapt::cli
         report::draw_study(directory,
                            study.title.empty() ? study.name : study.title,
                            plotted(runs, outcomes),
+                           plot_key(study),
                            log);
-      log.info(report::OutputDirectory::study_files_to_look_at(directory));
+      log.info(report::OutputDirectory::study_files_in_short(directory));
     });
     return worst;
   }

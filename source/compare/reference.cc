@@ -143,7 +143,7 @@ namespace tetradapt::compare
           cached.seconds         = reference.seconds;
           cached.description     = reference.description;
           write_reference_cache(file, key, cached);
-          log.info("Reference: kept for later runs in " + file);
+          log.detail("Reference: kept for later runs in " + file);
         }
       catch (const std::exception &error)
         {
@@ -210,7 +210,7 @@ namespace tetradapt::compare
         CacheResult result = read_reference_cache(file, key);
         if (!result.problem.empty())
           log.warning("The kept reference " + file + " cannot be used: " + result.problem
-                      + ". It is computed anew.");
+                      + ". It is computed again.");
         if (!result.reference)
           return;
         cached     = std::move(*result.reference);
@@ -238,7 +238,7 @@ namespace tetradapt::compare
                                                   std::move(cached.values),
                                                   std::move(cached.pressures),
                                                   communicator);
-      log.info("Reference: reused from " + file + " (" + number(seconds) + " s saved)");
+      log.detail("Reference: reused from " + file + " (" + number(seconds) + " s saved)");
       return true;
     }
 

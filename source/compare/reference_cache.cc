@@ -200,7 +200,7 @@ namespace tetradapt::compare
       in.value(reference.seconds);
       in.text(reference.description);
       if (!in.at_end())
-        throw std::out_of_range("There are data behind the end.");
+        throw std::out_of_range("There are data after the end.");
     }
 
     std::string
@@ -220,7 +220,7 @@ namespace tetradapt::compare
         return "it is truncated";
       std::memcpy(&header, content.data(), sizeof(header));
       if (std::memcmp(header.magic, magic, sizeof(header.magic)) != 0)
-        return "it is no file of this kind, or damaged";
+        return "it is not a file of this kind, or it is damaged";
       if (header.byte_order != byte_order || header.format != format_version)
         return "it is of another version of the program or of another machine";
       if (std::string(header.key, sizeof(header.key)) != key)

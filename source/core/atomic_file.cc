@@ -58,7 +58,8 @@ namespace tetradapt::core
                        + "': " + (path.empty() ? "the name is empty." : "a folder has this name."));
     // Renaming over a device would replace it by a plain file.
     if (fs::exists(status) && !fs::is_regular_file(status))
-      throw InputError("Cannot write the file '" + name + "': it exists and is no plain file.");
+      throw InputError("Cannot write the file '" + name
+                       + "': it exists and is not a regular file.");
 
     target = fs::exists(status) ? fs::canonical(path, error).string() : path;
     if (error || target.empty())

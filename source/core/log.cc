@@ -38,6 +38,12 @@ namespace tetradapt::core
   }
 
   void
+  Log::detail(const std::string &text) const
+  {
+    send(LogLevel::detail, text);
+  }
+
+  void
   Log::info(const std::string &text) const
   {
     send(LogLevel::info, text);

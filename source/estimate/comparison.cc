@@ -21,9 +21,9 @@ namespace tetradapt::estimate
   Comparison::require_reference() const
   {
     if (!has_reference())
-      throw core::InputError("A comparison with a reference solution is needed, but the scene has "
-                             "no reference. Set 'Type' in the section 'Reference', or choose "
-                             "another refinement indicator in the section 'Adaptivity'.");
+      throw core::InputError(
+        "A comparison with a reference solution is needed, but the scene has no reference. Set "
+        "Reference/Type, or choose another Adaptivity/Refinement indicator.");
   }
 
 
@@ -50,9 +50,8 @@ namespace tetradapt::estimate
       {
         if (!has_exact_displacement())
           throw core::InputError(
-            "A comparison with the exact solution is needed, but the scene "
-            "gives none. Set 'Displacement' in the section 'Exact solution', or choose "
-            "another refinement indicator in the section 'Adaptivity'.");
+            "A comparison with the exact solution is needed, but the scene gives none. Set Exact "
+            "solution/Displacement, or choose another Adaptivity/Refinement indicator.");
         true_difference
           = compare::difference_to_exact(*u_h, exact_solution, materials, communicator);
       }

@@ -304,7 +304,7 @@ namespace tetradapt::estimate
     throw core::NumericalError(
       "The solution of the next degree, which an error estimator needs, did not converge in "
       + std::to_string(most)
-      + " iterations. Look for materials of very different stiffness, a Poisson ratio close to "
-        "0.5 or very flat elements, or choose another estimator in the section 'Estimation'.");
+      + " iterations. Look for materials of very different stiffness, a Poisson ratio close to 0.5 "
+        "or very flat elements, or choose another estimator in Estimation.");
   }
 } // namespace tetradapt::estimate

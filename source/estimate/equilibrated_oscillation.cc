@@ -233,7 +233,7 @@ namespace tetradapt::estimate
           bool touched = false;
           for (const unsigned int edge : edges.cell_edges[cell])
             touched = touched || lifting.on_edge[edge] != 0;
-          // A face without a term on its edges is not quite impossible.
+          // A face without a term on its edges is possible, if rare.
           for (unsigned int f = 0; f < 4 && u_h.degree() == 2; ++f)
             {
               const unsigned int which = faces.boundary[faces.sides[cell][f].face];

@@ -86,10 +86,9 @@ namespace tetradapt::estimate
     const Drive drive = drive_of(input.scene);
     if (drive == Drive::both)
       throw core::InputError(
-        "The estimator 'richardson' extrapolates the energy, which tells the error if loads alone "
-        "or "
-        "prescribed displacements alone deform the body, but this scene has both. Choose another "
-        "one in the sections 'Adaptivity' and 'Estimation', for example 'spr'.");
+        "The estimator 'richardson' extrapolates the energy, which gives the error only if either "
+        "loads or prescribed displacements deform the body; this scene has both. Choose another "
+        "one in Adaptivity and Estimation, for example spr.");
     const mesh::NodalField &u_h      = input.comparison.displacement();
     auto                    recovery = compare::recovery_estimate(u_h,
                                                input.comparison.material_map(),

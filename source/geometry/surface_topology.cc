@@ -156,7 +156,7 @@ namespace tetradapt::geometry
         throw InputError(what + ": " + count(n, "point") + (n == 1 ? " is" : " are")
                          + " listed twice; the first pair is points " + std::to_string(first)
                          + " and " + std::to_string(second) + " at " + to_string(p[first])
-                         + ". Merge duplicate vertices, so that the triangles hang together.");
+                         + ". Merge duplicate vertices, so that the triangles are connected.");
     }
 
     void

@@ -123,8 +123,8 @@ namespace tetradapt::mechanics
     q.update_ghost_values();
     for (const Cell &cell : cells)
       {
-        // A vertex's shape function has a gradient of mean zero: what its force is small
-        // beside is the size of the gradients.
+        // A vertex's shape function has a gradient of mean zero: its force is small compared
+        // with the size of the gradients.
         double values[4], size = 0.;
         for (unsigned int i = 0; i < 4; ++i)
           {

@@ -34,7 +34,7 @@ namespace tetradapt::mechanics
       begin = 0;
     const unsigned long n_all = dealii::Utilities::MPI::sum(n_mine, communicator);
 
-    // Every rank knows every node's global number: a small vector beside the mesh.
+    // Every rank knows every node's global number: a small vector compared with the mesh.
     std::vector<unsigned long> global(pressure_nodes->size(), 0);
     for (unsigned int k = 0; k < owned.size(); ++k)
       global[owned[k]] = begin + k;

@@ -12,7 +12,7 @@
 
 /**
  * Vectors' values at the nodes of a batch of cells, to and from lanes. A node's three numbers
- * lie beside each other, a component's lanes too: in between are transpositions of 4 x 4
+ * lie next to each other, as do a component's lanes: in between are transpositions of 4 x 4
  * numbers, written with the compilers' vector types (GCC from 12 on, Clang), which come down
  * to whatever registers a clone has.
  */

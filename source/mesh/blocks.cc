@@ -74,7 +74,7 @@ namespace tetradapt::mesh
                  result[i],
                  " are too close to each other for a body of extent ",
                  extent,
-                 ": TetGen may not come to an end. Make them equal, or move them apart.");
+                 ": TetGen may not finish. Make them equal, or move them apart.");
       return result;
     }
 

@@ -282,7 +282,7 @@ namespace tetradapt::mesh
     last_place              = place;
     const std::size_t found = content.find(text, place);
     if (found == std::string::npos)
-      fail(text + " is missing behind this place: the file is cut off.");
+      fail(text + " is missing after this place: the file is cut off.");
     place = found + text.size();
   }
 

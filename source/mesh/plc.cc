@@ -39,7 +39,7 @@ namespace tetradapt::mesh
         {
           std::ostringstream message;
           message << "The box is nearly flat: its sides are " << size[0] << ", " << size[1]
-                  << " and " << size[2] << ", and TetGen may not come to an end below a ratio of 1 "
+                  << " and " << size[2] << ", and TetGen may not finish below a ratio of 1 "
                   << "to " << 1. / flattest_box
                   << ". Make it thicker or smaller, or use bricks (Mesh/Type = bricks).";
           throw core::InputError(message.str());

@@ -117,7 +117,7 @@ namespace tetradapt::mesh
       }
 
       /** Steps back where boundary faces cross; whether there were any that could.
-       * Cells can all be positive and yet overlap, beside a fold of the boundary. */
+       * Cells can all be positive and yet overlap, next to a fold of the boundary. */
       bool
       part_crossing_faces(bool all_the_way)
       {
@@ -310,7 +310,7 @@ namespace tetradapt::mesh
 
       TetMesh                      &mesh;
       const std::vector<PointMove> &moves;
-      bool                          goes_far = false; ///< beside the cells' edges
+      bool                          goes_far = false; ///< compared with the cells' edges
       std::vector<double>           way;              ///< part of the way to the target, per move
       std::vector<Point<3>>         origins;
       std::vector<unsigned int>     move_of_point;

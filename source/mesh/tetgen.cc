@@ -126,13 +126,13 @@ namespace tetradapt::mesh
                   parameters.radius_edge_ratio,
                   "; below ",
                   smallest_radius_edge_ratio,
-                  " TetGen does not come to an end."));
+                  " TetGen does not finish."));
     if (!(parameters.dihedral_angle >= 0. && parameters.dihedral_angle <= largest_dihedral_angle))
       refuse(text("TetGen/Minimum dihedral angle is ",
                   parameters.dihedral_angle,
                   "; it must be between 0 and ",
                   largest_dihedral_angle,
-                  " degrees: above, TetGen does not come to an end."));
+                  " degrees: above, TetGen does not finish."));
     if (!std::isfinite(parameters.radius_edge_ratio) || parameters.radius_edge_ratio > 1e3)
       refuse("TetGen/Radius-edge ratio must be at most 1000.");
     if (parameters.optimisation_level > 10 || parameters.optimisation_scheme > 7)

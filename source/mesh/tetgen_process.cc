@@ -31,7 +31,7 @@ namespace tetradapt::mesh
           lines.push_back(line);
       if (lines.empty())
         return "";
-      std::string text = " TetGen's last words:";
+      std::string text = " TetGen's last output:";
       for (std::size_t i = lines.size() > 3 ? lines.size() - 3 : 0; i < lines.size(); ++i)
         text += "\n  " + lines[i];
       return text;
@@ -165,7 +165,7 @@ namespace tetradapt::mesh
     }
 
     std::string
-    beside_this_program()
+    next_to_this_program()
     {
       std::string   path(4096, '\0');
       const ssize_t n = readlink("/proc/self/exe", path.data(), path.size());
@@ -187,16 +187,16 @@ namespace tetradapt::mesh
                                          "the program '")
                              + named + "', which does not exist or cannot be executed.");
       }
-    const std::string beside = beside_this_program();
-    if (is_executable(beside))
-      return beside;
+    const std::string neighbour = next_to_this_program();
+    if (is_executable(neighbour))
+      return neighbour;
 #ifdef TETRADAPT_TETGEN_WORKER_PATH
     if (is_executable(TETRADAPT_TETGEN_WORKER_PATH))
       return TETRADAPT_TETGEN_WORKER_PATH;
 #endif
     throw NumericalError("The program tetradapt-tetgen, in which TetGen runs, is missing: it was "
                          "looked for at '"
-                         + beside
+                         + neighbour
                          + "'. Put it there, or name it in the environment variable "
                            "TETRADAPT_TETGEN_WORKER.");
   }

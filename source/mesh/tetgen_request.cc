@@ -68,7 +68,7 @@ namespace tetradapt::mesh
 
     /** Whether two faces that share the edge a-b lie in one plane.
      *
-     * @param rounding by how much coordinates may be off: where it is large beside the
+     * @param rounding by how much coordinates may be off: where it is large compared with the
      *        faces, as in a body far from the origin, a flat wall looks bent. */
     bool
     is_flat(const Point<3> &a,

@@ -61,7 +61,7 @@ namespace tetradapt::mesh
       const double id = ids[cell];
       if (!(std::abs(id) < 2147483648.) || id != std::floor(id))
         fail("cell " + std::to_string(cell) + " (counted from 0) has the region or boundary id "
-             + std::to_string(id) + ", which is no whole number.");
+             + std::to_string(id) + ", which is not a whole number.");
       return static_cast<int>(id);
     }
 

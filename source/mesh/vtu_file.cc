@@ -72,7 +72,8 @@ namespace tetradapt::mesh
     const auto result = document.load_buffer_inplace(xml.data(), xml.size());
     if (!result)
       throw core::InputError("'" + file + "'" + line_of(result.offset)
-                             + ": this is no XML, or it is cut off: " + result.description() + ".");
+                             + ": this is not XML, or it is cut off: " + result.description()
+                             + ".");
   }
 
 
@@ -82,7 +83,7 @@ namespace tetradapt::mesh
   {
     const pugi::xml_node root = document.child("VTKFile");
     if (!root)
-      fail(document.first_child(), "the element VTKFile is missing: this is no VTK file.");
+      fail(document.first_child(), "the element VTKFile is missing: this is not a VTK file.");
     const std::string type = root.attribute("type").value();
     if (type != "UnstructuredGrid")
       fail(root, "the file holds " + excerpt(type) + "; only 'UnstructuredGrid' can be used.");
@@ -131,7 +132,7 @@ namespace tetradapt::mesh
   {
     std::int64_t n;
     if (!parse(std::string_view(piece.attribute(name).value()), n) || n < 0)
-      fail(piece, std::string(name) + " is missing or no number.");
+      fail(piece, std::string(name) + " is missing or not a number.");
     return n;
   }
 
@@ -216,7 +217,7 @@ namespace tetradapt::mesh
         const std::size_t n = std::min(rest.find_first_of(" \t\r\n\v\f"), rest.size());
         T                 value;
         if (!parse(rest.substr(0, n), value))
-          fail(array, excerpt(rest.substr(0, n)) + " is no number, or none of its type.");
+          fail(array, excerpt(rest.substr(0, n)) + " is not a number, or not of its type.");
         values.push_back(value);
         rest.remove_prefix(n);
         rest.remove_prefix(std::min(rest.find_first_not_of(" \t\r\n\v\f"), rest.size()));
@@ -270,8 +271,8 @@ namespace tetradapt::mesh
         const std::vector<unsigned char> data = bytes(array);
         if (data.size() % size_of(type) != 0)
           fail(array,
-               "its " + std::to_string(data.size()) + " bytes are no whole number of " + type_name
-                 + ".");
+               "its " + std::to_string(data.size()) + " bytes are not a whole number of "
+                 + type_name + ".");
         result.resize(data.size() / size_of(type));
         convert(type, data.data(), result.size(), layout.swap, result.data());
       }

@@ -22,6 +22,9 @@ namespace tetradapt::report
 
     using Records = std::vector<adapt::CycleRecord>;
 
+    /** The terminal's heading is repeated after so many rows. */
+    constexpr unsigned int rows_a_heading = 20;
+
     bool
     has_value(const RecordColumn &column, const Records &records)
     {
@@ -124,6 +127,7 @@ namespace tetradapt::report
   {
     rows.clear();
     heading.clear();
+    rows_below_heading = 0;
   }
 
   void
@@ -136,8 +140,12 @@ namespace tetradapt::report
         // A figure that comes later (an estimator that needs several cycles) gets a column.
         const auto        columns     = terminal_columns(rows);
         const std::string new_heading = terminal_heading(columns);
-        if (new_heading != heading)
-          *terminal << new_heading << '\n';
+        if (new_heading != heading || rows_below_heading == rows_a_heading)
+          {
+            *terminal << new_heading << '\n';
+            rows_below_heading = 0;
+          }
+        ++rows_below_heading;
         heading = new_heading;
         *terminal << terminal_row(columns, rows.back()) << std::endl;
       }

@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
@@ -20,6 +21,25 @@ namespace tetradapt::report
   {
     /** Seconds; a picture takes a fraction of one. */
     constexpr double time_limit = 30.;
+
+    /** The SVG documents that @p output consists of. */
+    std::vector<std::string>
+    documents(const std::string &output)
+    {
+      const std::string        end = "</svg>";
+      std::vector<std::string> result;
+      for (std::size_t at = 0; at < output.size();)
+        {
+          const std::size_t found = output.find(end, at);
+          if (found == std::string::npos)
+            break;
+          const std::size_t next
+            = std::min(output.find_first_not_of(" \r\n", found + end.size()), output.size());
+          result.push_back(output.substr(at, found + end.size() - at) + "\n");
+          at = next;
+        }
+      return result;
+    }
 
     /** The first line of what gnuplot says, which names the trouble. */
     std::string
@@ -63,6 +83,42 @@ namespace tetradapt::report
     std::error_code error;
     fs::create_directories(folder, error); // what is wrong, the file below says
     core::write_file(folder + "/" + name + ".gp", script);
+    waiting.push_back({name, script});
+  }
+
+  std::optional<std::string>
+  PictureFolder::draw(const std::vector<Picture> &pictures) const
+  {
+    std::string input;
+    for (const Picture &picture : pictures)
+      input += (input.empty() ? "" : "reset\n") + picture.script;
+    core::ChildResult result;
+    try
+      {
+        result = core::run_child({"gnuplot", program, {"-d"}}, input, time_limit);
+      }
+    catch (const core::NumericalError &failure)
+      {
+        return std::string(": ") + failure.what();
+      }
+    if (result.timed_out)
+      return " in " + std::to_string(int(time_limit)) + " s";
+    const std::vector<std::string> drawn = documents(result.output);
+    if ((result.status >= 0 && (!WIFEXITED(result.status) || WEXITSTATUS(result.status)))
+        || drawn.size() != pictures.size())
+      return first_words(result.errors);
+    for (std::size_t i = 0; i < drawn.size(); ++i)
+      core::write_file(folder + "/" + pictures[i].name + ".svg", drawn[i]);
+    return std::nullopt;
+  }
+
+  void
+  PictureFolder::draw()
+  {
+    const std::vector<Picture> pictures = std::move(waiting);
+    waiting.clear();
+    if (pictures.empty())
+      return;
     if (program.empty())
       {
         if (!missing_was_said)
@@ -72,26 +128,11 @@ namespace tetradapt::report
         missing_was_said = true;
         return;
       }
-    std::string trouble;
-    try
-      {
-        const core::ChildResult result
-          = core::run_child({"gnuplot", program, {"-d"}}, script, time_limit);
-        if (result.timed_out)
-          trouble = " in " + std::to_string(int(time_limit)) + " s";
-        else if ((result.status >= 0 && (!WIFEXITED(result.status) || WEXITSTATUS(result.status)))
-                 || result.output.find("</svg>") == std::string::npos)
-          trouble = first_words(result.errors);
-        else
-          {
-            core::write_file(folder + "/" + name + ".svg", result.output);
-            return;
-          }
-      }
-    catch (const core::NumericalError &failure)
-      {
-        trouble = std::string(": ") + failure.what();
-      }
-    log.warning("Output/Plots: gnuplot made no " + name + ".svg" + trouble);
+    if (pictures.size() > 1 && !draw(pictures))
+      return;
+    // One by one, so that a picture that fails costs no other.
+    for (const Picture &picture : pictures)
+      if (const auto trouble = draw({picture}))
+        log.warning("Output/Plots: gnuplot made no " + picture.name + ".svg" + *trouble);
   }
 } // namespace tetradapt::report

@@ -78,7 +78,7 @@ namespace tetradapt::report
       return "set " + axis + "range [" + number(range.lower) + ":" + number(range.upper) + "]\n";
     }
 
-    /** What all pictures have in common; @p n_names are explained beside them. */
+    /** What all pictures have in common; @p n_names are explained next to them. */
     std::string
     begin_script(const std::string &title,
                  const std::string &x_label,
@@ -98,7 +98,7 @@ namespace tetradapt::report
                "set border 3 lc rgb '#606060'\n"
                "set tics nomirror textcolor rgb '#202020'\n"
                "set grid lc rgb '#e0e0e0' lt 1 lw 1\n"
-               "set key outside right top vertical maxcols 1 Left reverse samplen 2.5 noenhanced\n"
+               "set key outside right top vertical maxcols 1 Left reverse samplen 4.5 noenhanced\n"
                "set xlabel "
              + gnuplot_text(x_label) + " enhanced\nset ylabel " + gnuplot_text(y_label)
              + " enhanced\n";

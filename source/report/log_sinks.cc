@@ -40,6 +40,41 @@ namespace tetradapt::report
       return text.substr(0, length);
     }
 
+    /** @p text with lines of at most @p width characters of UTF-8: those that are longer are
+     * broken at blanks and go on two characters to the right. Words stay whole. */
+    std::string
+    broken(const std::string &text, const std::size_t width)
+    {
+      std::string result;
+      std::size_t column = 0, blank = std::string::npos;
+      for (const char c : text)
+        {
+          if (c == '\n')
+            {
+              column = 0;
+              blank  = std::string::npos;
+            }
+          else
+            {
+              column += (c & 0xC0) != 0x80;
+              // Blanks at a line's beginning indent it.
+              if (c == ' ' && column > 1 && result.back() != ' ')
+                blank = result.size();
+            }
+          result += c;
+          if (column > width && blank != std::string::npos)
+            {
+              std::size_t rest = 0;
+              for (std::size_t i = blank + 1; i < result.size(); ++i)
+                rest += (result[i] & 0xC0) != 0x80;
+              result.replace(blank, 1, "\n  ");
+              column = rest + 2;
+              blank  = std::string::npos;
+            }
+        }
+      return result;
+    }
+
     /** What tells one stage's progress from another's: the words. */
     std::string
     without_numbers(const std::string &text)
@@ -93,11 +128,21 @@ namespace tetradapt::report
   {
     if (level == core::LogLevel::progress)
       show_progress(text);
-    else if (level != core::LogLevel::info || !(options.quiet || options.brief))
+    else if (is_shown(level))
       {
         clear_progress();
-        stream << label(level) << text << std::endl;
+        const std::string whole     = label(level) + text;
+        const bool        is_broken = level == core::LogLevel::info || options.is_terminal;
+        stream << (is_broken ? broken(whole, std::min(80u, options.width)) : whole) << std::endl;
       }
+  }
+
+  bool
+  TerminalSink::is_shown(const core::LogLevel level) const
+  {
+    if (level == core::LogLevel::warning || level == core::LogLevel::error)
+      return true;
+    return !options.quiet && !options.brief && (level != core::LogLevel::detail || options.verbose);
   }
 
   void

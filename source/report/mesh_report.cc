@@ -141,7 +141,7 @@ namespace tetradapt::report
     if (!is_reported(event.record))
       return;
     records.push_back(event.record);
-    log.info(describe_mesh_record(event.record));
+    log.detail(describe_mesh_record(event.record));
     if (!directory.empty())
       core::write_file(directory + "/mesh.csv", csv_meshes(records));
   }

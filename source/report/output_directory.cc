@@ -212,50 +212,75 @@ namespace tetradapt::report
 
   namespace
   {
-    /** The @p candidates, names and what they are, that exist in @p directory. */
-    std::string
-    list_files(const std::string                                      &directory,
-               const std::vector<std::pair<std::string, std::string>> &candidates)
+    /** Names of files, and what they are. */
+    using Files = std::vector<std::pair<std::string, std::string>>;
+
+    Files
+    files_of_run(const std::string &scene_name)
     {
-      std::size_t width = 0;
-      for (const auto &[name, what] : candidates)
-        width = std::max(width, directory.size() + 1 + name.size());
-      std::string text = "Files to look at:";
-      for (const auto &[name, what] : candidates)
-        {
-          const std::string file = directory + "/" + name;
-          std::error_code   error;
-          // log.txt gets its name when the run is over.
-          if (fs::exists(file, error) || name == "log.txt")
-            text += "\n  " + file + std::string(width - file.size() + 2, ' ') + what;
-        }
-      return text;
+      return {{"results.txt", "exact and computed values"},
+              {"convergence.txt", "the figures of every cycle, for reading"},
+              {"convergence.csv", "the same for a spreadsheet"},
+              {"mesh.csv", "the meshes: what was asked for, shapes, ids"},
+              {"plots", "errors, effectivity, shapes as .svg"},
+              {scene_name + ".pvd", "all cycles, for ParaView"},
+              {"size_field.vtu", "sizes of the last mesh, for Mesh/Size field of another scene"},
+              {"parameters.prm", "the complete input"},
+              {"log.txt", "what happened when"}};
+    }
+
+    /** The @p candidates that exist in @p directory. */
+    Files
+    existing(const std::string &directory, Files candidates)
+    {
+      candidates.erase(std::remove_if(candidates.begin(),
+                                      candidates.end(),
+                                      [&](const auto &file) {
+                                        std::error_code error;
+                                        // log.txt gets its name when the run is over.
+                                        return file.first != "log.txt"
+                                               && !fs::exists(directory + "/" + file.first, error);
+                                      }),
+                       candidates.end());
+      return candidates;
+    }
+
+    std::string
+    in_short(const std::string &directory, const Files &files)
+    {
+      std::string text;
+      for (const auto &file : files)
+        text += (text.empty() ? "" : ", ") + file.first;
+      return "Results in " + directory + ": " + text;
     }
   } // namespace
 
   std::string
   OutputDirectory::files_to_look_at() const
   {
-    return list_files(directory,
-                      {{"results.txt", "what was found, beside what is known"},
-                       {"convergence.txt", "the figures of every cycle, for reading"},
-                       {"convergence.csv", "the same for a spreadsheet"},
-                       {"mesh.csv", "the meshes: what was asked for, shapes, ids"},
-                       {"plots", "errors, effectivity, shapes as .svg"},
-                       {scene_name + ".pvd", "all cycles, for ParaView"},
-                       {"size_field.vtu",
-                        "sizes of the last mesh, for Mesh/Size field of another scene"},
-                       {"parameters.prm", "the complete input"},
-                       {"log.txt", "what happened when"}});
+    const Files files = existing(directory, files_of_run(scene_name));
+    std::size_t width = 0;
+    for (const auto &file : files)
+      width = std::max(width, directory.size() + 1 + file.first.size());
+    std::string text = "Files to look at:";
+    for (const auto &[name, what] : files)
+      {
+        const std::string file = directory + "/" + name;
+        text += "\n  " + file + std::string(width - file.size() + 2, ' ') + what;
+      }
+    return text;
   }
 
   std::string
-  OutputDirectory::study_files_to_look_at(const std::string &directory)
+  OutputDirectory::files_in_short() const
   {
-    return list_files(directory,
-                      {{"study.txt", "the last figures of every run"},
-                       {"study.csv", "all figures of all runs, for a spreadsheet"},
-                       {"plots", "all runs as .svg"},
-                       {"parameters.prm", "the complete input"}});
+    return in_short(directory, existing(directory, files_of_run(scene_name)));
+  }
+
+  std::string
+  OutputDirectory::study_files_in_short(const std::string &directory)
+  {
+    return in_short(directory,
+                    existing(directory, {{"study.txt", ""}, {"study.csv", ""}, {"plots", ""}}));
   }
 } // namespace tetradapt::report

@@ -73,7 +73,7 @@ namespace tetradapt::report
           plot.x_label = "tetrahedra";
           break;
         case Abscissa::seconds:
-          plot.x_label = "seconds, all cycles until then";
+          plot.x_label = "seconds, sum of all cycles so far";
           if (!slopes.empty())
             plot.explanation = "triangles: best rates if the time grows with N";
           break;
@@ -231,6 +231,7 @@ namespace tetradapt::report
                const Abscissa                 abscissa,
                const std::vector<PlottedRun> &runs,
                const Figure                  &figure,
+               const std::string             &key,
                const bool                     with_slopes = false)
     {
       std::vector<unsigned int> degrees;
@@ -241,6 +242,8 @@ namespace tetradapt::report
                     y_label,
                     abscissa,
                     with_slopes ? theoretical_slopes(degrees, false) : std::vector<PlotSlope>());
+      plot.explanation
+        = key + (key.empty() || plot.explanation.empty() ? "" : "; ") + plot.explanation;
       for (const PlottedRun &run : runs)
         plot.curves.push_back(
           {run.label, points_of(run.records, abscissa, figure), run.colour, run.pattern, false});
@@ -312,7 +315,9 @@ namespace tetradapt::report
   }
 
   std::vector<NamedPlot>
-  plots_of_study(const std::string &title, const std::vector<PlottedRun> &runs)
+  plots_of_study(const std::string             &title,
+                 const std::vector<PlottedRun> &runs,
+                 const std::string             &key)
   {
     const bool all_measured = std::all_of(runs.begin(), runs.end(), [](const PlottedRun &run) {
       return std::all_of(run.records.begin(), run.records.end(), [](const Record &r) {
@@ -329,10 +334,10 @@ namespace tetradapt::report
                           const Figure      &figure,
                           const bool         with_slopes) -> NamedPlot {
       return {name,
-              gnuplot_script(study_plot(title, y_label, abscissa, runs, figure, with_slopes))};
+              gnuplot_script(study_plot(title, y_label, abscissa, runs, figure, key, with_slopes))};
     };
-    LinePlot effectivity
-      = study_plot(title, "estimated over true error", Abscissa::cycle, runs, main_effectivity);
+    LinePlot effectivity = study_plot(
+      title, "estimated over true error", Abscissa::cycle, runs, main_effectivity, key);
     bool is_large = false;
     for (const PlotCurve &curve : effectivity.curves)
       for (const auto &point : curve.points)

@@ -94,12 +94,14 @@ namespace tetradapt::report
     for (const NamedPlot &plot : plots_of_run(scene, records))
       folder.add(plot.name, plot.script);
     folder.add("indicators", gnuplot_script(indicator_plot()));
+    folder.draw();
   }
 
   void
   draw_study(const std::string             &directory,
              const std::string             &title,
              const std::vector<PlottedRun> &runs,
+             const std::string             &key,
              const core::Log               &log)
   {
     constexpr std::size_t   most = 28;
@@ -108,7 +110,8 @@ namespace tetradapt::report
       log.info("The plots show the first " + std::to_string(most) + " of "
                + std::to_string(runs.size()) + " runs.");
     PictureFolder folder(directory + "/plots", log);
-    for (const NamedPlot &plot : plots_of_study(title, drawn))
+    for (const NamedPlot &plot : plots_of_study(title, drawn, key))
       folder.add(plot.name, plot.script);
+    folder.draw();
   }
 } // namespace tetradapt::report

@@ -16,19 +16,20 @@ namespace tetradapt::scene
       binder("Lambda",
              p.lambda,
              number_codec(),
-             "maximum: marks where the error is at least this part of the largest.");
-      binder("Minimum new fraction",
-             p.min_new,
-             number_codec(),
-             "maximum: Lambda is lowered until at least this part of the tetrahedra is marked.");
+             "maximum: marks where the error is at least this fraction of the largest.");
+      binder(
+        "Minimum new fraction",
+        p.min_new,
+        number_codec(),
+        "maximum: Lambda is lowered until at least this fraction of the tetrahedra is marked.");
       binder("Fraction",
              p.fraction,
              number_codec(),
-             "fixed fraction: part of the tetrahedra to mark, those with the largest errors.");
+             "fixed fraction: fraction of the tetrahedra to mark, those with the largest errors.");
       binder("Theta",
              p.theta,
              number_codec(),
-             "doerfler: part of the squared error that the marked tetrahedra hold.");
+             "doerfler: fraction of the squared error that the marked tetrahedra hold.");
       binder("Reduction",
              p.reduction,
              number_codec(),
@@ -37,30 +38,34 @@ namespace tetradapt::scene
       binder("Growth",
              p.growth,
              number_codec(),
-             "optimal size: tetrahedra of the next mesh over those of this one; fewer where they "
-             "reach the tolerance, and up to half as many more where these do.");
+             "optimal size: ratio of the next mesh's tetrahedra to this one's; fewer if they reach "
+             "the tolerance, up to half as many more if only these do.");
       binder("Minimum ratio",
              p.min_ratio,
              number_codec(),
              "Smallest new edge length over the old one in one cycle.");
-      binder("Maximum ratio", p.max_ratio, number_codec(), "Largest such ratio.");
+      binder("Maximum ratio",
+             p.max_ratio,
+             number_codec(),
+             "Largest new edge length over the old one in one cycle.");
       binder("Minimum size", p.min_size, number_codec(), "Smallest edge length; 0: none.");
       binder("Maximum size", p.max_size, number_codec(), "Largest edge length; 0: none.");
       binder("Gradation",
              p.gradation,
              number_codec(),
-             "Most by which the edge length may grow over a distance of one.");
+             "Largest growth of the edge length per unit of distance.");
       binder("Safeguard",
              p.safeguard,
              yes_no_codec(),
              "adaptive: do not accept a mesh whose energy says that the solution became worse: "
-             "refine the one before more strongly, then uniformly. Nor go on when the reference "
-             "that drives (energy, ren) is hardly better than the mesh: its error is at least 0.7 "
-             "times the mesh's.");
+             "refine the one before more strongly, then uniformly. Also stop when the reference "
+             "that drives the refinement (energy, ren) is hardly better than the mesh: when its "
+             "error is at least 0.7 times the mesh's.");
       binder("Coarsening",
              p.coarsening,
              yes_no_codec(),
-             "adaptive: let elements grow where the error is small, by meshing the body anew with "
+             "adaptive: let elements grow where the error is small, by meshing the body from "
+             "scratch with "
              "the wanted sizes instead of refining the old mesh.");
     }
 
@@ -83,26 +88,26 @@ namespace tetradapt::scene
       binder("Marking",
              p.marking,
              word_codec<AdaptivityParameters::Marking>(),
-             "adaptive: how new sizes follow from errors: by marking tetrahedra, or (optimal "
-             "size) by spreading the error evenly over a given number of tetrahedra.");
+             "adaptive: how new sizes follow from errors: by marking tetrahedra, or (optimal size) "
+             "by distributing the error evenly over a given number of tetrahedra.");
       binder("Size control",
              p.size_control,
              word_codec<AdaptivityParameters::SizeControl>(),
-             "adaptive: how TetGen is told: an edge length at every node, or a largest volume "
-             "for every tetrahedron.");
+             "adaptive: how TetGen gets the sizes: an edge length at every node, or a largest "
+             "volume for every tetrahedron.");
       bind_rules(p, binder);
       binder("Tolerance",
              p.tolerance,
              number_codec(),
-             "Stop when the relative error in the energy norm is below; 0: no such stop.");
+             "Stop when the relative error in the energy norm is below this; 0: no tolerance.");
       binder("REN tolerance",
              p.ren_tolerance,
              number_codec(),
-             "Stop when the mean REN is below; 0: no such stop.");
+             "Stop when the mean REN is below this; 0: no tolerance.");
       binder("Goal tolerance",
              p.goal_tolerance,
              number_codec(),
-             "Stop when the relative error of Estimation/Goal is below; 0: no such stop.");
+             "Stop when the relative error of Estimation/Goal is below this; 0: no tolerance.");
       binder("Maximum cycles",
              p.max_cycles,
              count_codec(),
@@ -110,12 +115,11 @@ namespace tetradapt::scene
       binder("Maximum tetrahedra",
              p.max_tets,
              long_count_codec(),
-             "No further cycle with a mesh larger than that; optimal sizes aim at no more. 0: no "
-             "limit.");
+             "No cycle with a larger mesh; optimal sizes aim at no more. 0: no limit.");
       binder("Maximum unknowns",
              p.max_dofs,
              long_count_codec(),
-             "No further cycle with a larger system; 0: no limit.");
+             "No cycle with a larger system; 0: no limit.");
       binder("Maximum seconds",
              p.max_seconds,
              number_codec(),

@@ -37,7 +37,7 @@ namespace tetradapt::scene
     double value;
     require(!constant_value(text, path, value) || value > 0.,
             path,
-            "an edge length of " + text + " makes no sense: it must be positive.");
+            "an edge length of " + text + " is not possible: it must be positive.");
   }
 
   namespace
@@ -111,7 +111,7 @@ namespace tetradapt::scene
   {
     require(radius_edge_ratio >= 1.1,
             section + "/Radius-edge ratio",
-            "TetGen never ends with a bound of " + text_of(radius_edge_ratio)
+            "TetGen never finishes with a bound of " + text_of(radius_edge_ratio)
               + ": it must be at least 1.1, and 1.2 (strict) to 2 (loose) is usual.");
     require(dihedral_angle >= 0. && dihedral_angle <= 20.,
             section + "/Minimum dihedral angle",

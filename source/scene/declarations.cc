@@ -19,14 +19,15 @@ namespace tetradapt::scene
       static const std::vector<std::pair<std::string, std::string>> texts{
         {"Mesh", "The mesh, or the meshes, that the scene is solved on."},
         {"TetGen", "How TetGen is run, for first meshes and for refinement."},
-        {"Materials", "One subsection a material, with a name of your choice."},
+        {"Materials", "One subsection for each material, with a name of your choice."},
         {"Supports", "Prescribed displacements: one subsection each, with a name of your choice."},
         {"Loads", "Loads: one subsection each, with a name of your choice."},
         {"Solver", "How the linear systems are solved."},
-        {"Reference", "The fine solution that the error is measured with."},
-        {"Exact solution", "What is known of the true solution."},
-        {"Goals", "Values to be known: one subsection each, with a name of your choice."},
-        {"Estimation", "Which error estimators are computed, beside the one that drives."},
+        {"Reference", "The fine solution that the error is measured against."},
+        {"Exact solution", "What is known about the exact solution."},
+        {"Goals", "Quantities of interest: one subsection each, with a name of your choice."},
+        {"Estimation",
+         "Which error estimators are computed in addition to the refinement indicator."},
         {"Adaptivity", "Whether and how the mesh changes from cycle to cycle."},
         {"Output", "What is written, and where."},
         {"Study",
@@ -38,7 +39,7 @@ namespace tetradapt::scene
     void
     bind_top(Scene &scene, Binder &binder)
     {
-      binder("Title", scene.title, text_codec(), "What the scene shows, for people.");
+      binder("Title", scene.title, text_codec(), "Title of the scene, for output and plots.");
       binder("Degree",
              scene.degree,
              count_codec(),
@@ -47,8 +48,8 @@ namespace tetradapt::scene
              scene.formulation,
              word_codec<Formulation>(),
              "The unknowns: the displacement, or in mixed form the displacement of degree 2 and "
-             "the pressure of degree 1, for materials that are nearly incompressible or, with a "
-             "Poisson ratio of 0.5, quite.");
+             "the pressure of degree 1, for materials that are nearly or, with a Poisson ratio of "
+             "0.5, fully incompressible.");
     }
 
     /** Calls @p act with each part of @p scene inside its section. */

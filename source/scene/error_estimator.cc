@@ -16,7 +16,8 @@ namespace tetradapt::scene
       binder("Estimators",
              p.estimators,
              words_codec<ErrorEstimator>(),
-             "Estimators that every cycle computes for the tables, beside the one that drives.");
+             "Estimators that every cycle computes for the tables in addition to the refinement "
+             "indicator.");
       binder("Goal",
              p.goal,
              text_codec("the name of a subsection of Goals, or nothing"),

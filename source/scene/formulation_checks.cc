@@ -58,8 +58,8 @@ namespace tetradapt::scene
                 || (scene.reference.type == Reference::fine_mesh && scene.reference.degree == 2),
               "Reference/"
                 + std::string(scene.reference.type == Reference::fine_mesh ? "Degree" : "Type"),
-              "with Formulation = mixed the reference must be solved in mixed form, too: use "
-              "Type = fine mesh and Degree = 2.");
+              "with Formulation = mixed the reference must also be solved in mixed form: use Type "
+              "= fine mesh and Degree = 2.");
       for (const auto &goal : scene.goals)
         require(goal.type == GoalType::point_displacement
                   || goal.type == GoalType::mean_displacement,

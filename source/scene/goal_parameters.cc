@@ -35,14 +35,14 @@ namespace tetradapt::scene
       binder("Weight",
              p.weight,
              text_codec("an expression in x, y, z"),
-             "mean displacement, mean stress: weight of the mean. A smooth one, such as that of a "
-             "ball in point stress, is integrated exactly sooner than one that jumps.");
+             "mean displacement, mean stress: weight of the mean. A smooth weight, such as that of "
+             "a ball in point stress, is integrated more accurately than one with jumps.");
       binder("Boundary ids", p.selector.ids, ids_codec(), "Ids of the faces of a mean.");
       binder("Groups", p.selector.groups, names_codec(), "Names of such groups of faces.");
       binder("Where",
              p.selector.where,
              text_codec("an expression in x, y, z, or nothing"),
-             "Expression that must hold besides, at the corners and the centre of a face.");
+             "Expression that must also hold, at the corners and the centre of a face.");
       binder("Displacement weight",
              p.displacement_weight,
              expressions_codec<3>(true),
@@ -55,10 +55,7 @@ namespace tetradapt::scene
              p.stress_weight,
              expressions_codec<6>(true),
              "functional: times the stresses xx; yy; zz; xy; yz; zx, over the body.");
-      binder("Exact value",
-             p.exact,
-             optional_number_codec(),
-             "What it is known to be; empty: unknown.");
+      binder("Exact value", p.exact, optional_number_codec(), "Its exact value; empty: unknown.");
     }
 
     template <std::size_t n>
@@ -78,7 +75,7 @@ namespace tetradapt::scene
       const auto found = std::find(names.begin(), names.end(), goal.component);
       require(found != names.end(),
               "Goals/" + goal.name + "/Component",
-              "'" + goal.component + "' is no component of a "
+              "'" + goal.component + "' is not a component of a "
                 + (n == 3 ? "displacement" : "stress") + ". Choose one of " + list(names) + ".");
       return found - names.begin();
     }

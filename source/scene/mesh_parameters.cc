@@ -33,7 +33,7 @@ namespace tetradapt::scene
       binder("Cells",
              p.cells,
              bricks_codec(),
-             "bricks: how many along x, y and z. Several, separated by commas, make a study: "
+             "bricks: how many along x, y and z. Several, separated by commas, make a mesh list: "
              "one cycle each.");
       binder("Blocks",
              p.blocks,
@@ -48,7 +48,7 @@ namespace tetradapt::scene
              p.files,
              paths_codec(),
              "file: a volume mesh (.msh of version 2 or 4, .vtk, .vtu, .node with .ele); several, "
-             "separated by semicolons, make a study. surface: one closed surface (.stl, .off, "
+             "separated by semicolons, make a mesh list. surface: one closed surface (.stl, .off, "
              ".obj, .ply). Relative names count from the folder of the file that sets them.");
       binder("Surface edge length",
              p.surface_edge_length,
@@ -64,7 +64,7 @@ namespace tetradapt::scene
              p.volume_bounds,
              numbers_codec(),
              "box, surface, file: largest volume of a tetrahedron that TetGen may leave; 0: no "
-             "bound. Several, separated by commas, make a study.");
+             "bound. Several, separated by commas, make a mesh list.");
       binder("Size",
              p.size,
              text_codec("an expression in x, y, z, or nothing"),
@@ -75,12 +75,12 @@ namespace tetradapt::scene
              text_codec("the name of a file, or nothing"),
              "box, blocks, surface, file: the size_field.vtu of an earlier run (of this scene with "
              "other loads or materials, or of a similar body) whose sizes the first mesh gets.");
-      binder("Projection",
-             p.projection,
-             word_codec<MeshParameters::Projection>(),
-             "Where new points on a curved boundary go: they stay on the flat faces of the mesh "
-             "before (none), move to a fine triangulated surface, or to the zero set of an "
-             "expression.");
+      binder(
+        "Projection",
+        p.projection,
+        word_codec<MeshParameters::Projection>(),
+        "Where new points on a curved boundary go: they stay on the flat faces of the previous "
+        "mesh (none), move to a fine triangulated surface, or to the zero set of an expression.");
       binder("Projection file",
              p.projection_file,
              text_codec("the name of a file, or nothing"),
@@ -111,17 +111,17 @@ namespace tetradapt::scene
       binder("Optimisation level",
              p.optimisation_level,
              count_codec(),
-             "How much TetGen works on the quality in the end, 0 to 10 (-O).");
+             "How much TetGen improves the quality at the end, 0 to 10 (-O).");
       binder("Optimisation scheme",
              p.optimisation_scheme,
              count_codec(),
-             "With which operations, 0 to 7 (-O/): 1 flips, 2 smoothing, 4 vertex insertion, "
-             "added up.");
+             "Operations used for it, 0 to 7 (-O/): the sum of 1 flips, 2 smoothing, 4 vertex "
+             "insertion.");
       binder("Steiner points",
              p.steiner_points,
              integer_codec(),
-             "Most points that one call may add (-S); -1: as many as it takes. A cap leaves "
-             "sizes and quality unmet.");
+             "Largest number of points that one call may add (-S); -1: no limit. With a limit, "
+             "sizes and quality may not be reached.");
       binder("Keep boundary",
              p.keep_boundary,
              yes_no_codec(),
@@ -186,7 +186,7 @@ namespace tetradapt::scene
         {
           require(p.files.size() == 1,
                   "Mesh/Files",
-                  "only one surface can be meshed. For a study give several volume bounds.");
+                  "only one surface can be meshed. For a mesh list give several volume bounds.");
           check_file(p.files[0], "Mesh/Files", {".stl", ".off", ".obj", ".ply"});
           require(p.surface_edge_length >= 0.,
                   "Mesh/Surface edge length",
@@ -311,7 +311,7 @@ namespace tetradapt::scene
       require(bound >= 0.,
               "Mesh/Volume bound",
               "a volume of " + text_of(bound)
-                + " makes no sense: it must be positive, or 0 for no bound.");
+                + " is not possible: it must be positive, or 0 for no bound.");
     check_size(size, "Mesh/Size");
     if (source == MeshSource::bricks)
       {
@@ -349,7 +349,7 @@ namespace tetradapt::scene
             "must be a whole number from 0 to 7.");
     require(steiner_points >= -1,
             "TetGen/Steiner points",
-            "must be a number of points, or -1 for no cap.");
+            "must be a number of points, or -1 for no limit.");
     require(time_limit > 0., "TetGen/Time limit", "must be a positive number of seconds.");
     require(memory_limit >= 64.,
             "TetGen/Memory limit",

@@ -57,7 +57,7 @@ namespace tetradapt::scene
       binder("Where",
              selector.where,
              text_codec("an expression in x, y, z, or nothing"),
-             "Expression in x, y, z that must hold besides, at the corners and the centre of a "
+             "Expression in x, y, z that must also hold, at the corners and the centre of a "
              "face, such as x < 1e-9.");
     }
 
@@ -173,9 +173,9 @@ namespace tetradapt::scene
       binder("Strain energy",
              p.strain_energy,
              number_codec(),
-             "Its strain energy, half the integral of strain : C : strain, without thermal "
-             "strain: what the tables call strain_energy, and half the work of the loads if they "
-             "act alone; 0: unknown.");
+             "Its strain energy, half the integral of strain : C : strain, without thermal strain: "
+             "the column strain_energy of the tables, and half the work of the loads if they act "
+             "alone; 0: unknown.");
     }
 
     void

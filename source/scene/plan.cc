@@ -104,8 +104,8 @@ namespace tetradapt::scene
                             [](const double bound) { return bound > 0.; });
     }
 
-    const char *nothing_uses_it
-      = "nothing uses it: it drives nothing, no stop is measured with it, and tables are off";
+    const char *nothing_uses_it = "nothing uses it: it does not drive the refinement, no tolerance "
+                                  "is measured with it, and tables are off";
   } // namespace
 
   Plan::Plan(const Scene &scene)
@@ -152,7 +152,7 @@ namespace tetradapt::scene
     add(initial_refinement,
         "initial refinement by TetGen",
         refine,
-        "the mesh file shall be refined to Mesh/Volume bound or Size",
+        "the mesh file is refined to Mesh/Volume bound or Size",
         source == MeshSource::file ? "neither Volume bound nor Size is set in Mesh" : type);
   }
 
@@ -226,7 +226,7 @@ namespace tetradapt::scene
     add(reference_error,
         "reference's own error",
         used,
-        "stated beside every error that is measured with it",
+        "stated with every error that is measured with it",
         absent);
   }
 
@@ -283,7 +283,7 @@ namespace tetradapt::scene
         "error estimators",
         !names.empty(),
         names,
-        "no estimator drives, and Estimation/Estimators lists none that would be needed");
+        "no estimator drives the refinement, and Estimation/Estimators lists none that is needed");
     add(goal_values,
         "goals",
         !scene.goals.empty(),
@@ -322,7 +322,7 @@ namespace tetradapt::scene
         "Adaptivity/Size control = " + word(adapt.size_control),
         adaptive ? "Adaptivity/Coarsening = yes" : reason);
     add(body_remeshing,
-        "meshing the body anew",
+        "meshing the body from scratch",
         adaptive && adapt.coarsening,
         "Adaptivity/Coarsening = yes",
         adaptive ? "Adaptivity/Coarsening = no" : reason);

@@ -58,7 +58,7 @@ namespace tetradapt::scene
           const auto         c      = static_cast<unsigned char>(line[i]);
           if (length == 0 || (c < 32 && c != '\t' && c != '\r'))
             refuse(place,
-                   "this is no text in UTF-8 (byte " + std::to_string(c) + " at position "
+                   "this is not text in UTF-8 (byte " + std::to_string(c) + " at position "
                      + std::to_string(i + 1) + "). Is it a parameter file? Save it as UTF-8.");
           i += length;
         }
@@ -84,7 +84,7 @@ namespace tetradapt::scene
       content.resize(stream.gcount());
       if (content.size() > limit)
         throw core::InputError(prefix + "'" + file
-                               + "' is larger than 4 MiB: this is no parameter file.");
+                               + "' is larger than 4 MiB: this is not a parameter file.");
       return content;
     }
 

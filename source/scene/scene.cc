@@ -152,9 +152,9 @@ namespace tetradapt::scene
               "estimator that does not need it.");
       require(which != ErrorEstimator::richardson || scene.loads.empty() || !moves_supports(scene),
               path,
-              "richardson extrapolates the energy, which tells the error if loads alone or "
-              "prescribed displacements alone deform the body, but this scene has both. Use spr "
-              "or another estimator.");
+              "richardson extrapolates the energy, which gives the error only if either loads or "
+              "prescribed displacements deform the body; this scene has both. Use spr or another "
+              "estimator.");
       require(which != ErrorEstimator::goal || !scene.goals.empty(),
               path,
               "the estimator 'goal' needs a goal. Add a subsection to Goals.");
@@ -233,7 +233,7 @@ namespace tetradapt::scene
           check_estimator(scene, adapt.refinement_indicator, "Adaptivity/Refinement indicator");
           require(!adapt.coarsening || scene.mesh.source != MeshSource::bricks,
                   "Adaptivity/Coarsening",
-                  "bricks have no surface to mesh anew. Use Mesh/Type = box.");
+                  "bricks have no surface to mesh from scratch. Use Mesh/Type = box.");
         }
       require(
         adapt.tolerance == 0. || has_ref || has_u || scene.exact_solution.has_energy()

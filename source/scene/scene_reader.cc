@@ -124,18 +124,18 @@ namespace tetradapt::scene
             const Place names            = places_of_values.at(start + "Parameters");
             if (!is_first)
               refuse(names,
-                     start + "Parameters: " + name + " is varied by Study/" + other->second
-                       + ", too. Remove one of the two.");
+                     start + "Parameters: " + name + " is also varied by Study/" + other->second
+                       + ". Remove one of the two.");
             if (std::count(path.begin(), path.end(), "") > 0)
               refuse(names,
                      start + "Parameters: '" + name
-                       + "' is no full name of a parameter, "
-                         "such as Adaptivity/Refinement indicator.");
+                       + "' is not the full name of a parameter, such as Adaptivity/Refinement "
+                         "indicator.");
             check_name(path, names);
             if (lines.count("command line\n" + full_name(path)) > 0)
               refuse(names,
                      start + "Parameters: " + full_name(path)
-                       + " is varied by the study and set on the command line, too. Set Study/"
+                       + " is varied by the study and also set on the command line. Set Study/"
                        + variation.name + "/Values there, or run the one scene.");
             const Place place = places_of_values.at(start + "Values");
             lines.erase(place.file + "\n" + full_name(path)); // setting it again is meant
@@ -271,8 +271,7 @@ namespace tetradapt::scene
         if (path.size() == 1 && has_named_blocks(path[0]))
           refuse(place,
                  text + "Parameters of " + path[0]
-                   + " stand in a subsection with a name of your choice: 'subsection name', "
-                     "'set "
+                   + " go into a subsection with a name of your choice: 'subsection name', 'set "
                    + name + " = ...', 'end'.");
         if (!nearest_names(name, section.entry_names()).empty())
           refuse(place, text + suggest(name, section.entry_names()));
@@ -281,7 +280,7 @@ namespace tetradapt::scene
             const SectionTree &block = has_named_blocks(other.name) ? other.sections[0] : other;
             if (block.entry(name) != nullptr)
               refuse(place,
-                     text + "It belongs into subsection " + other.name
+                     text + "It belongs to subsection " + other.name
                        + (has_named_blocks(other.name) ? "/" + name_placeholder : "") + ".");
           }
         refuse(place, text + suggest(name, section.entry_names()));

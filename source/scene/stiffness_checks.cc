@@ -51,8 +51,8 @@ namespace tetradapt::scene
             "Materials/" + stiff->name + "/Young modulus",
             contrast_message(*soft, *stiff)
               + "rounding in the stiff part would spoil the soft one. Lower it (a contrast of 1e6 "
-                "is as good as rigid), or leave the stiff part out and support the soft one "
-                "where they meet.");
+                "is practically rigid), or leave the stiff part out and support the soft one where "
+                "they meet.");
   }
 
   std::string
@@ -64,7 +64,7 @@ namespace tetradapt::scene
     if (!(stiff->young_modulus > doubtful_contrast * soft->young_modulus))
       return "";
     return "Materials/" + stiff->name + "/Young modulus: " + contrast_message(*soft, *stiff)
-           + "rounding in the stiff part leaves the soft one only some digits. A contrast of 1e6 "
-             "is as good as rigid.";
+           + "rounding in the stiff part leaves only some digits in the soft one. A contrast of "
+             "1e6 is practically rigid.";
   }
 } // namespace tetradapt::scene

@@ -31,13 +31,13 @@ namespace tetradapt::scene
       binder("Stopping",
              p.stopping,
              word_codec<SolverParameters::Stopping>(),
-             "What ends conjugate gradients: the residual's Tolerance, or an estimate of the "
-             "iterate's own error in the energy norm that is small beside the error of the mesh, "
-             "foretold from the cycle before.");
+             "When conjugate gradients stop: when the residual reaches Tolerance, or when their "
+             "own error in the energy norm, as they estimate it, is small compared with the error "
+             "of the mesh, predicted from the previous cycle.");
       binder("Solver error fraction",
              p.solver_error_fraction,
              number_codec(),
-             "discretisation: how small, as a part of the error of the mesh.");
+             "discretisation: how small, as a fraction of the error of the mesh.");
     }
 
     void
@@ -61,8 +61,8 @@ namespace tetradapt::scene
       binder("Tolerance",
              p.tolerance,
              number_codec(),
-             "hexahedra: refined until the estimate of its own relative energy error is below; 0: "
-             "a tenth of Adaptivity/Tolerance, or 0.001 if there is none.");
+             "hexahedra: refined until the estimate of its own relative energy error is below "
+             "this; 0: a tenth of Adaptivity/Tolerance, or 0.001 if there is none.");
       binder("Maximum unknowns",
              p.max_dofs,
              long_count_codec(),
@@ -169,8 +169,8 @@ namespace tetradapt::scene
     if (route == MeshRoute::refine)
       require(volume_bound > 0. || !size.empty(),
               "Reference/Mesh",
-              "a reference that is refined from the first mesh needs Volume bound or Size: how "
-              "fine shall it be?");
+              "a reference that is refined from the first mesh needs Volume bound or Size, which "
+              "say how fine it is.");
     if (route == MeshRoute::bricks)
       require(cells[0] > 0 && cells[1] > 0 && cells[2] > 0
                 && 6. * cells[0] * cells[1] * cells[2] <= 1e8,

@@ -107,8 +107,8 @@ namespace tetradapt::scene
     if (const std::string message = stiffness_warning(*this); !message.empty())
       messages.push_back(message);
     if (tetgen.radius_edge_ratio < 1.1)
-      messages.push_back("TetGen/Radius-edge ratio: TetGen may need very long with a bound below "
-                         "1.1.");
+      messages.push_back(
+        "TetGen/Radius-edge ratio: TetGen may take very long with a bound below 1.1.");
     if (adaptivity.strategy == Strategy::adaptive && tetgen.keep_boundary)
       messages.push_back("TetGen/Keep boundary: adaptive refinement stalls without new points on "
                          "the boundary.");

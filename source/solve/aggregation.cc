@@ -78,7 +78,7 @@ namespace tetradapt::solve
         }
     }
 
-    /** Nodes beside aggregates join that which they are coupled to most. */
+    /** Nodes next to aggregates join that which they are coupled to most. */
     void
     join(const Graph &graph, Aggregates &aggregates)
     {

@@ -10,7 +10,7 @@ namespace tetradapt::solve
   namespace
   {
     /** Inverts in place by Gauss and Jordan's method without pivots, which positive blocks
-     * do not need; false if a pivot is not positive beside the diagonal. */
+     * do not need; false if a pivot is not positive next to the diagonal. */
     template <typename Number, unsigned int n>
     bool
     invert(std::array<Number, n * n> &block)
@@ -43,7 +43,7 @@ namespace tetradapt::solve
     template <typename Number>
     constexpr unsigned int lanes = 64 / sizeof(Number);
 
-    /** What a step does besides reading: all of it; no direction before; only x. */
+    /** What a step does apart from reading: all of it; no direction before; only x. */
     enum class Kind
     {
       start, ///< from is b, and x becomes the direction

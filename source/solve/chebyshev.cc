@@ -21,14 +21,15 @@ namespace tetradapt::solve
 
     /** Largest eigenvalue of a symmetric tridiagonal matrix, by bisection. */
     double
-    largest_of_tridiagonal(const std::vector<double> &diagonal, const std::vector<double> &beside)
+    largest_of_tridiagonal(const std::vector<double> &diagonal,
+                           const std::vector<double> &off_diagonal)
     {
       const std::size_t n     = diagonal.size();
       double            lower = diagonal[0], upper = diagonal[0];
       for (std::size_t i = 0; i < n; ++i)
         upper = std::max(upper,
-                         diagonal[i] + (i > 0 ? std::abs(beside[i - 1]) : 0.)
-                           + (i + 1 < n ? std::abs(beside[i]) : 0.));
+                         diagonal[i] + (i > 0 ? std::abs(off_diagonal[i - 1]) : 0.)
+                           + (i + 1 < n ? std::abs(off_diagonal[i]) : 0.));
       for (unsigned int step = 0; step < 30; ++step)
         {
           const double middle = 0.5 * (lower + upper);
@@ -37,7 +38,7 @@ namespace tetradapt::solve
           bool   above = pivot < 0.;
           for (std::size_t i = 1; i < n && above; ++i)
             {
-              pivot = diagonal[i] - middle - beside[i - 1] * beside[i - 1] / pivot;
+              pivot = diagonal[i] - middle - off_diagonal[i - 1] * off_diagonal[i - 1] / pivot;
               above = pivot < 0.;
             }
           (above ? upper : lower) = middle;
@@ -68,7 +69,7 @@ namespace tetradapt::solve
     const auto         first = matrix.vector_layout()->local_range().first;
     for (unsigned int i = 0; i < size; ++i)
       r.local_element(i) = pseudo_random(first + i);
-    std::vector<double> diagonal, beside;
+    std::vector<double> diagonal, off_diagonal;
     double              rz = 0., alpha = 0.;
     for (unsigned int step = 0; step < 10; ++step)
       {
@@ -87,10 +88,10 @@ namespace tetradapt::solve
         alpha             = rz / pAp;
         diagonal.push_back(1. / alpha + (step == 0 ? 0. : beta / last));
         if (step > 0)
-          beside.push_back(std::sqrt(beta) / last);
+          off_diagonal.push_back(std::sqrt(beta) / last);
         r.add(static_cast<Number>(-alpha), Ap);
       }
-    return diagonal.empty() ? 1. : 1.1 * largest_of_tridiagonal(diagonal, beside);
+    return diagonal.empty() ? 1. : 1.1 * largest_of_tridiagonal(diagonal, off_diagonal);
   }
 
   template <typename Number, unsigned int n>

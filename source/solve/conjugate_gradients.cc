@@ -59,9 +59,9 @@ namespace tetradapt::solve
     }
 
     unsigned int
-    foretell(const IterationResult     &result,
-             const IterationLimits     &limits,
-             const EnergyErrorEstimate &estimate)
+    predict(const IterationResult     &result,
+            const IterationLimits     &limits,
+            const EnergyErrorEstimate &estimate)
     {
       const auto rate = estimate.rate();
       if (result.residual <= limits.residual || !rate)
@@ -135,7 +135,7 @@ namespace tetradapt::solve
     const double like_residual = first_residual > 0. ? result.residual / first_residual : 0.;
     result.error               = std::sqrt(
       estimate.squared_error().value_or(estimate.gained() * like_residual * like_residual));
-    result.iterations_to_residual = foretell(result, limits, estimate);
+    result.iterations_to_residual = predict(result, limits, estimate);
     return result;
   }
 } // namespace tetradapt::solve

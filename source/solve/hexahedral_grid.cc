@@ -106,10 +106,10 @@ namespace tetradapt::solve
   {
     for (const auto &load : scene.loads)
       if (load.type == scene::LoadType::nodal_force)
-        throw core::InputError("Loads/" + load.name
-                               + "/Type: forces on nodes depend on the mesh, so a hexahedral "
-                                 "reference has no equal. Use traction, or Reference/Type = fine "
-                                 "mesh.");
+        throw core::InputError(
+          "Loads/" + load.name
+          + "/Type: forces on nodes depend on the mesh, so a hexahedral reference cannot have "
+            "them. Use traction, or Reference/Type = fine mesh.");
     // A selection is decided on the coarsest grid that serves it, and inherited: what
     // holds at the corners of a small rectangle need not hold at those of a large one.
     const HexahedralGrid        blocks = block_grid(scene.mesh);

@@ -217,7 +217,7 @@ namespace tetradapt::solve
       text.precision(3);
       if (error)
         text << ", estimated relative error " << *error / std::sqrt(solution.energy);
-      log.info(text.str());
+      log.detail(text.str());
     }
   } // namespace
 
@@ -260,7 +260,7 @@ namespace tetradapt::solve
       forest.refine(std::vector<bool>(forest.cells().size(), true));
 
     HexahedralSolution solution;
-    double             foretold = 0.; // error of the next mesh
+    double             predicted = 0.; // error of the next mesh
     while (true)
       {
         const HexahedralLevel fine(scene, materials, forest, scene.reference.degree);
@@ -275,7 +275,7 @@ namespace tetradapt::solve
         Vector       x              = first_iterate(fine, solution.displacement.get());
         const auto   preconditioner = make_p_multigrid(fine, coarse);
         const double limit
-          = foretold > 0. ? algebraic * foretold : first_residue * std::sqrt(solution.energy);
+          = predicted > 0. ? algebraic * predicted : first_residue * std::sqrt(solution.energy);
         const unsigned int iterations
           = iterate(fine, *preconditioner, forces, limit, scene.solver.max_iterations, log, x);
 
@@ -309,7 +309,7 @@ namespace tetradapt::solve
         const double next = wanted_growth(error, target);
         if (solution.reached || next * solution.n_dofs > scene.reference.max_dofs)
           return solution;
-        foretold = error.value_or(0.) * std::pow(next, -usual_rate);
+        predicted = error.value_or(0.) * std::pow(next, -usual_rate);
         forest.refine(mark(indicators, next, communicator));
       }
   }

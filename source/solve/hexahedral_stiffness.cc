@@ -178,8 +178,8 @@ namespace tetradapt::solve
                   coupling = std::max(coupling, std::abs(value));
               }
       if (coupling > 1e-10 * largest)
-        throw core::InputError("Reference/Type: hexahedra can be used for materials only that are "
-                               "symmetric to the coordinate planes. Use Type = fine mesh.");
+        throw core::InputError("Reference/Type: hexahedra can be used only for materials that are "
+                               "symmetric about the coordinate planes. Use Type = fine mesh.");
       return result;
     }
   } // namespace

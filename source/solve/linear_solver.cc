@@ -202,8 +202,9 @@ namespace tetradapt::solve
     limits.max_iterations = parameters.max_iterations;
     LinearResult result{0, 0, 0., description};
     double       gained = 0.;
-    // The residual's norm is ruled by stiff and by flat elements. So it may be small beside
-    // that of the load while soft parts are still wrong: then it has to become smaller.
+    // The residual's norm is ruled by stiff and by flat elements. So it may be small
+    // compared with that of the load while soft parts are still wrong: then it has to become
+    // smaller.
     for (double excess = 2.; excess > 1.;)
       {
         IterationResult step

@@ -83,7 +83,7 @@ namespace tetradapt::solve
       for (unsigned int c = 0; c < 3; ++c)
         u.local_element(3 * node + c) = model.prescribed.values[model.space.field_node(node)][c];
     divergence.vmult(flow, u);
-    // How much the equations want the volume to change, beside what flows in or out.
+    // How much the equations want the volume to change, apart from what flows in or out.
     const double change = volume_load * free_pressure - flow * free_pressure;
     double       scale  = std::abs(volume_load * free_pressure);
     for (const auto &face : model.space.tet_mesh().faces)
@@ -108,7 +108,7 @@ namespace tetradapt::solve
           "use a Poisson ratio below 0.5.");
     log.warning("Supports: interpolated on the mesh, they change the volume of an incompressible "
                 "part of the body whose whole boundary they hold by "
-                + share.str() + "; it is solved with this change spread evenly.");
+                + share.str() + "; the solution distributes this change evenly.");
     Vector weights(free_pressure);
     mass.vmult(weights, free_pressure);
     volume_load.add(-change / (weights * free_pressure), weights);

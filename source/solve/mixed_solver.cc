@@ -35,7 +35,7 @@ namespace tetradapt::solve
     constexpr double error_factor = 3.;
 
     /** By how much the residual may fall before it and what the preconditioner makes of it are
-     * computed anew: steps go on with those of single precision, whose errors add up. */
+     * computed again: steps go on with those of single precision, whose errors add up. */
     constexpr double first_drift = 1e-3;
   } // namespace
 

@@ -208,14 +208,14 @@ tolerance()
                                         : part)
                 << '\n';
     }
-  // If the last cycle's error fell with half the power that was foretold, the same
+  // If the last cycle's error fell with half the power that was predicted, the same
   // needs the square of the growth: 0.8^-6 = 3.8 for 0.8; and 0.45 needs 0.45^-3 = 11 times
   // as many where 8 are wanted, which a slack of 1.5 allows.
   options.tolerance       = 0.8 * error / 0.95;
   options.reduction_power = 0.5;
   auto field              = adapt::optimal_size_field(mesh, e, options);
   std::cout << "half the power: growth " << close(field.predicted_tets / n, std::pow(0.8, -6.))
-            << ", error " << close(field.predicted_error / error, 0.8) << ", foretold "
+            << ", error " << close(field.predicted_error / error, 0.8) << ", predicted "
             << close(field.predicted_reduction, 0.64) << '\n';
   options.reduction_power = 1.;
   options.tolerance       = 0.45 * error / 0.95;

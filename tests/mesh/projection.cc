@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The boundary of a sphere's eighth stays on its spheres and planes while the mesh is refined,
 // its volume approaches the true one with h^2, no tetrahedron degenerates; bodies are
-// meshed anew from the corners of their flat parts.
+// meshed from scratch from the corners of their flat parts.
 
 #include "tetradapt/mesh/body_complex.h"
 #include "tetradapt/mesh/boundary_projection.h"
@@ -103,7 +103,7 @@ namespace
               << (volume - mesh::total_volume(cube) <= report.swept_volume ? "yes" : "NO") << '\n';
   }
 
-  /** Two regions with a slanted wall, refined, then meshed anew with large cells. */
+  /** Two regions with a slanted wall, refined, then meshed from scratch with large cells. */
   void
   test_body()
   {

@@ -143,6 +143,7 @@ namespace
     pictures.add("nothing", "");
     pictures.add("one", "plot x\n");
     pictures.add("two", "plot x\n");
+    pictures.draw();
     std::cout << "  " << fs::exists(folder / "nothing.gp") << fs::exists(folder / "one.gp")
               << fs::exists(folder / "two.gp") << ' ' << content(folder / "one.svg")
               << content(folder / "two.svg") << std::endl;
@@ -170,6 +171,10 @@ main()
   make_program("plots_scratch/half", "echo '<svg>'\n");
   with_path("no gnuplot", "plots_scratch");
   with_path("one that works", "nowhere:plots_scratch/good");
+  make_program("plots_scratch/joint",
+               "n=1; while read line; do [ \"$line\" = reset ] && n=$((n+1)); done\n"
+               "for i in 1 2; do [ $i -gt $n ] || echo \"<svg>$i of $n</svg>\"; done\n");
+  with_path("one that draws both at once", "nowhere:plots_scratch/joint");
   with_path("one that fails", "plots_scratch/bad");
   with_path("half a picture", "plots_scratch/half");
 
@@ -188,6 +193,10 @@ main()
     {
       pictures.add(plot.name, plot.script);
       n_plots += !plot.script.empty();
+    }
+  pictures.draw();
+  for (const auto &plot : report::plots_of_run(scene, make_records()))
+    {
       const std::string svg = content("plots_scratch/real/" + plot.name + ".svg");
       n_pictures += count(svg, "it's &lt;5 %&lt; &amp; \"{x}_1\" \\ done") == 1;
     }

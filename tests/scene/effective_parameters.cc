@@ -112,7 +112,7 @@ main()
 
   // All parameters; the blocks need names, and a body something that moves it.
   std::ostringstream printed;
-  print_parameters(printed, ParameterFormat::prm);
+  print_parameters(printed, ParameterFormat::prm, {"linear elastic"});
   std::string text = printed.str();
   for (auto at = text.find("<name>"); at != std::string::npos; at = text.find("<name>"))
     text.replace(at, 6, "some");
@@ -127,8 +127,8 @@ main()
   std::cout << "places known: " << all.places.size() << '\n';
 
   std::ostringstream markdown, json;
-  print_parameters(markdown, ParameterFormat::markdown);
-  print_parameters(json, ParameterFormat::json);
+  print_parameters(markdown, ParameterFormat::markdown, {"linear elastic"});
+  print_parameters(json, ParameterFormat::json, {"linear elastic"});
   const std::string rows = markdown.str(), keys = json.str();
   std::size_t       n_rows = 0, n_keys = 0;
   for (auto at = rows.find("\n| "); at != std::string::npos; at = rows.find("\n| ", at + 1))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
-// The reference on disk: reused when nothing that determines it changed, made anew
+// The reference on disk: reused when nothing that determines it changed, made from scratch
 // when something did or when the file is damaged, always with the same figures.
 
 #include "program.h"

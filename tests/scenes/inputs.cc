@@ -227,7 +227,7 @@ end
            text
              + "subsection Adaptivity\n set Strategy = adaptive\n set Refinement indicator = "
                "exact\n set Maximum cycles = 4\nend\n");
-    // Prescribed values are interpolated anew, so that a cycle may gain no energy error.
+    // Prescribed values are interpolated again, so that a cycle may gain no energy error.
     check("  error falls",
           linear.n_rows() == 4 && linear.falls("relative_l2_error")
             && linear.last("relative_energy_error")

@@ -105,7 +105,7 @@ end
       = run("--output-directory twice --set 'Adaptivity/Maximum tetrahedra=1000' twice.prm");
     check("  not beyond a limit: the run says so",
           limited.code == 0 && Table("twice").n_rows() == 3
-            && contains(limited.err, "two meshes made from that of cycle 0"));
+            && contains(limited.err, "two meshes made from the mesh of cycle 0"));
   }
 
   void

@@ -13,7 +13,7 @@
 
 namespace tetradapt::adapt
 {
-  /** What a cycle's errors are measured with, beside the comparison. */
+  /** What a cycle's errors are measured with, apart from the comparison. */
   struct ErrorSources
   {
     const scene::Scene       &scene;

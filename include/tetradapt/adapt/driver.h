@@ -102,12 +102,12 @@ namespace tetradapt::adapt
     SizeField
     make_size_field(const Cycle &cycle, bool stronger) const;
     void
-    refine_mesh(Cycle &cycle, const SizeField &field, bool anew);
+    refine_mesh(Cycle &cycle, const SizeField &field, bool from_scratch);
     void
     refine_uniformly(Cycle &cycle);
     void
     use(NewMesh made);
-    /** Foretells the error of the next cycle from this one's, given the factor by which
+    /** Predicts the error of the next cycle from this one's, given the factor by which
      * it falls. */
     void
     predict_error(const CycleRecord &record, double factor);
@@ -143,8 +143,8 @@ namespace tetradapt::adapt
     bool                 is_tested       = false;      ///< energies tell whether a mesh is better
     double               predicted_error = 0.;         ///< of this cycle, energy norm; 0: unknown
     double               obtained_over_predicted = 0.; ///< see SizeFieldOptions
-    /** What the size field of this mesh foretold of the error, and from where; 0: nothing. */
-    double foretold_reduction = 0., foretold_from = 0.;
+    /** What the size field of this mesh predicted of the error, and from where; 0: nothing. */
+    double predicted_reduction = 0., predicted_from = 0.;
     double reduction_power = 1.; ///< see SizeFieldOptions
   };
 } // namespace tetradapt::adapt

@@ -40,13 +40,13 @@ namespace tetradapt::adapt
     NewMesh
     refined(const mesh::TetMesh &old, const SizeField &field, const compare::PointLocator &locator);
 
-    /** The body that @p old fills meshed anew with the sizes of @p field; refined
+    /** The body that @p old fills meshed from scratch with the sizes of @p field; refined
      * instead, with a warning, where its boundary does not allow that. */
     NewMesh
-    made_anew(const mesh::TetMesh         &old,
-              const SizeField             &field,
-              const compare::PointLocator &locator,
-              const mesh::EdgeTable       &edges);
+    made_from_scratch(const mesh::TetMesh         &old,
+                      const SizeField             &field,
+                      const compare::PointLocator &locator,
+                      const mesh::EdgeTable       &edges);
 
     /** Every tetrahedron of @p old cut into eight. @param edges may be null. */
     NewMesh
@@ -60,7 +60,9 @@ namespace tetradapt::adapt
     mesh::TetMesh
     refine(const mesh::TetMesh &old, const SizeField &field) const;
     mesh::TetMesh
-    mesh_anew(const mesh::TetMesh &old, const SizeField &field, const mesh::EdgeTable &edges) const;
+    mesh_from_scratch(const mesh::TetMesh   &old,
+                      const SizeField       &field,
+                      const mesh::EdgeTable &edges) const;
     void
     compare_with_true_volume(const mesh::TetMesh &mesh) const;
 

@@ -22,7 +22,7 @@ namespace tetradapt::adapt
     geometric_mean ///< weighted by volume
   };
 
-  /** What a size field is made from, besides the mesh and its indicators. Lengths
+  /** What a size field is made from, apart from the mesh and its indicators. Lengths
    * in the mesh's unit. */
   struct SizeFieldOptions
   {
@@ -31,7 +31,7 @@ namespace tetradapt::adapt
     /** The p of the formula below. Every p leads to the same mesh in the end, one
      * with equal errors; a lower one puts more of the next cells where the largest
      * errors are. Measured: 1 is at edge singularities 5 to 10 % better than 2 for
-     * solutions of degree 2, too, and elsewhere no worse. */
+     * solutions of degree 2 also and elsewhere no worse. */
     double order = 1.;
     /** Power of h with which the driving error falls, for predicting it. */
     double rate = 1.;
@@ -53,7 +53,7 @@ namespace tetradapt::adapt
     double gradation         = 0.3;             ///< h(x) <= h(y) + g |x-y|; 0: none
     double reduction         = 0.5;             ///< marked cells: new over old size
     double radius_edge_ratio = 1.414;           ///< TetGen's -q, for volume constraints
-    /** The next mesh fills the body anew, so that cells may grow; else they are only
+    /** The next mesh fills the body from scratch, so that cells may grow; else they are only
      * split. Sizes are given at nodes then. */
     bool coarsening = false;
     /** Tetrahedra obtained over tetrahedra predicted; 0: what was measured for this
@@ -104,9 +104,9 @@ namespace tetradapt::adapt
   next_obtained_over_predicted(const SizeField &field, unsigned long obtained);
 
   /** The power to pass as reduction_power in the next cycle, after the error became
-   * @p obtained times what it was where the size field foretold @p predicted times (its
+   * @p obtained times what it was where the size field predicted @p predicted times (its
    * predicted_reduction): the quotient of their logarithms, within [0.3, 1.2]. Steps that
-   * foretold less than a fifth teach nothing certain: the answer is then @p last. */
+   * predicted less than a fifth teach nothing certain: the answer is then @p last. */
   double
   next_reduction_power(double predicted, double obtained, double last);
 

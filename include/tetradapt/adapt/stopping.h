@@ -38,7 +38,7 @@ namespace tetradapt::adapt
     saturated ///< 0.7 of it and more: what is measured is the reference
   };
 
-  /** What is known besides the cycles' figures. */
+  /** What is known apart from the cycles' figures. */
   struct StoppingContext
   {
     unsigned int degree = 1; ///< of the solution

@@ -11,7 +11,7 @@
 namespace tetradapt::cli
 {
   /**
-   * Reads the scene @p file as scene::read_scene() does, checks besides what only
+   * Reads the scene @p file as scene::read_scene() does, also checks what only
    * other rooms know (the names of constitutive laws), and applies
    * Options::output_directory: one scene writes there, several write to folders
    * with their names in it.

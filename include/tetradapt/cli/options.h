@@ -25,7 +25,7 @@ namespace tetradapt::cli
     std::vector<std::string> scenes;           ///< parameter files, in order
     std::vector<std::string> settings;         ///< "Section/Name=value", in order
     std::string              output_directory; ///< empty: as the scenes say
-    bool                     quiet = false;
+    bool                     quiet = false, verbose = false;
   };
 
   /**

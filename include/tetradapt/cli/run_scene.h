@@ -12,12 +12,13 @@
 
 namespace tetradapt::cli
 {
-  /** What the command line says about a run beside the scene. */
+  /** What the command line says about a run in addition to the scene. */
   struct RunOptions
   {
-    bool        quiet = false; ///< only warnings and errors on stderr, nothing on stdout
-    bool        brief = false; ///< nothing but progress, warnings and errors on stderr
-    std::string command_line;  ///< as it was typed, for the log
+    bool        quiet   = false; ///< only warnings and errors on stderr, nothing on stdout
+    bool        brief   = false; ///< nothing but progress, warnings and errors on stderr
+    bool        verbose = false; ///< plan, meshes, solvers and times on stderr also
+    std::string command_line;    ///< as it was typed, for the log
   };
 
   /**
@@ -26,7 +27,7 @@ namespace tetradapt::cli
    *
    * @param scene a scene that scene::read_scene() returned.
    * @param effective_parameters its complete input, for output/parameters.prm.
-   * @param more observers beside those that the scene asks for; told on the first rank.
+   * @param more observers in addition to those that the scene asks for; told on the first rank.
    * @throws InputError, NumericalError. Errors that concern all ranks are thrown
    *         on all ranks; the caller prints them (once), adds the place of the
    *         parameter (scene::Scene::with_place()) and sets the exit code.

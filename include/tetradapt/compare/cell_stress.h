@@ -58,7 +58,7 @@ namespace tetradapt::compare
 
     double stiffness[6][6], compliance[6][6];
     /** A positive metric of stresses and its inverse, for fits: compliance and stiffness, but
-     * in mixed form with a bulk modulus of at most 5 mu, so that pressures are fitted too. */
+     * in mixed form with a bulk modulus of at most 5 mu, so that pressures are fitted also. */
     double metric[6][6], inverse_metric[6][6];
     double shear_modulus; ///< mean of the three on the diagonal
   };

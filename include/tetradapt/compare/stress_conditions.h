@@ -9,7 +9,7 @@
 namespace tetradapt::compare
 {
   /**
-   * What a recovered stress should satisfy beside being close to the computed one, as
+   * What a recovered stress should satisfy apart from being close to the computed one, as
    * squares to be added to those of a fit.
    *
    * At points x of a boundary face with normal n, weighted with boundary_weight:

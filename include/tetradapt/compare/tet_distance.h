@@ -20,7 +20,7 @@ namespace tetradapt::compare
   /**
    * Closest point to @p p of the triangle @p a, @p b, @p c: its projection onto
    * the plane if that lies inside, else the closest of the three edges' closest
-   * points. Right for triangles that are degenerate to an edge or a point, too.
+   * points. Right for triangles that are degenerate to an edge or a point also.
    */
   ClosestPoint
   closest_point_on_triangle(const Point<3> &p,

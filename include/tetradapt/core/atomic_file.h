@@ -19,7 +19,7 @@ namespace tetradapt::core
   {
   public:
     /**
-     * Opens a temporary file beside @p path (binary mode).
+     * Opens a temporary file next to @p path (binary mode).
      * @throws InputError with the path and the system's reason if the directory
      *         does not exist or may not be written to, or if @p path is a
      *         directory or a device.

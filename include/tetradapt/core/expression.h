@@ -16,7 +16,7 @@ namespace tetradapt::core
   /**
    * A scalar function of x, y, z and t, given as text and evaluated by muParser.
    *
-   * Known besides muParser's own functions: the constants `pi` (also `_pi`) and
+   * Known in addition to muParser's own functions: the constants `pi` (also `_pi`) and
    * `e` (also `_e`), `if(condition, a, b)`, and the operators `&&`, `||`, `!`.
    * Objects may be copied; each copy owns its parser, so two copies may be used
    * by two threads, one object by one thread at a time.

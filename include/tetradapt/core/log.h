@@ -12,6 +12,7 @@ namespace tetradapt::core
   enum class LogLevel
   {
     progress, ///< replaced by the next one; for terminals only
+    detail,   ///< for the log file, and for terminals on request
     info,
     warning,
     error
@@ -41,6 +42,8 @@ namespace tetradapt::core
 
     void
     progress(const std::string &text) const;
+    void
+    detail(const std::string &text) const;
     void
     info(const std::string &text) const;
     void

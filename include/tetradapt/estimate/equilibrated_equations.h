@@ -10,7 +10,7 @@ namespace tetradapt::estimate
    * The equations that a symmetric stress on Alfeld's split of the unit tetrahedron
    * has to fulfil under given loads, and their solution. A stress has six components
    * xx, yy, zz, yz, zx, xy for each polynomial of each part: coefficient 6 (part *
-   * size + polynomial) + component. The loads are numbers, too.
+   * size + polynomial) + component. The loads are numbers also.
    */
   class StressEquations
   {

@@ -21,7 +21,7 @@ namespace tetradapt::geometry
    * The flat parts of a surface: triangles of one id that hang together in one plane
    * (normals within 1e-8 of that of the part's first triangle, so that slow curvature does
    * not add up). Each triangle of a curved part is a flat part of its own. With
-   * them a surface can be triangulated anew, coarser, without changing its shape.
+   * them a surface can be triangulated again, coarser, without changing its shape.
    *
    * The surface need not be manifold: any number of triangles may share an edge, so that
    * walls between regions may be among them.

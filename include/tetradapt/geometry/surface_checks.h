@@ -25,7 +25,7 @@ namespace tetradapt::geometry
    * triangle, each edge in exactly two triangles (closed, manifold), the triangles
    * around a point one fan, no self-intersection, a volume that is not nearly
    * zero. Points that no triangle names are dropped; the orientation is made
-   * outward if a consistent one exists. Several parts are allowed beside each other.
+   * outward if a consistent one exists. Several parts are allowed next to each other.
    *
    * CGAL (Polygon Mesh Processing) finds self-intersections, with exact predicates.
    *

@@ -32,8 +32,8 @@ namespace tetradapt::mechanics
     energy_density(const SymmetricTensor<2, 3> &strain) const override;
     double
     complementary_density(const SymmetricTensor<2, 3> &stress) const override;
-    /** Keeps mu of lambda, but at most a half of lambda, beside the pressure. Empty for nu <= 0,
-     * where lambda is not positive. */
+    /** Keeps mu of lambda, but at most a half of lambda, in addition to the pressure. Empty for nu
+     * <= 0, where lambda is not positive. */
     std::optional<PressureForm>
     pressure_form() const override;
 

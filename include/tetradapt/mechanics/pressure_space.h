@@ -7,7 +7,7 @@
 namespace tetradapt::mechanics
 {
   /**
-   * The pressures of degree 1 beside displacements of degree 2 (Taylor and Hood), and the
+   * The pressures of degree 1 that belong to displacements of degree 2 (Taylor and Hood), and the
    * numbering of their nodes over the ranks. A node belongs to the rank that owns the
    * displacement at its vertex. As in DisplacementSpace, local nodes are first those that the
    * rank owns, then ghosts.

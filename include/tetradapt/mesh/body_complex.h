@@ -8,7 +8,7 @@
 
 namespace tetradapt::mesh
 {
-  /** A body to be meshed anew. */
+  /** A body to be meshed from scratch. */
   struct BodyComplex
   {
     PiecewiseLinearComplex plc; ///< some of its points lie inside, of no facet
@@ -16,7 +16,7 @@ namespace tetradapt::mesh
   };
 
   /**
-   * The body that a mesh fills, for meshing it anew with larger and smaller cells: its
+   * The body that a mesh fills, for meshing it from scratch with larger and smaller cells: its
    * boundary with the patches, the walls between regions, a point in every part of a
    * region, and of the mesh's points as many as the wanted sizes have room for, so that
    * TetGen knows the sizes wherever they change and begins with points at about the

@@ -18,7 +18,7 @@ namespace tetradapt::mesh
   /**
    * Path of the program `tetradapt-tetgen`, in which TetGen runs: the value of the
    * environment variable TETRADAPT_TETGEN_WORKER if it is set, else the file of
-   * that name beside the running program, else the one of the build tree.
+   * that name next to the running program, else the one of the build tree.
    *
    * @throws NumericalError saying where it was looked for if it is in none of them.
    */

@@ -26,7 +26,7 @@ namespace tetradapt::mesh
   public:
     explicit VtuFile(const std::string &file);
 
-    /** The document refers to the text beside it. */
+    /** The document refers to the text next to it. */
     VtuFile(const VtuFile &) = delete;
     VtuFile &
     operator=(const VtuFile &)

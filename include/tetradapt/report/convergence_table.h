@@ -80,6 +80,7 @@ namespace tetradapt::report
     const core::Log                &log;
     std::vector<adapt::CycleRecord> rows;
     std::string                     heading; ///< the last one printed
+    unsigned int                    rows_below_heading = 0;
   };
 } // namespace tetradapt::report
 

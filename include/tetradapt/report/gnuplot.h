@@ -12,7 +12,7 @@
 /** Pictures by gnuplot, which is a program of its own and may be missing. */
 namespace tetradapt::report
 {
-  /** Colours that PlotCurve::colour can tell apart; a larger number begins anew. */
+  /** Colours that PlotCurve::colour can tell apart; a larger number starts again. */
   constexpr unsigned int n_plot_colours = 8;
 
   /** A curve of a LinePlot. */
@@ -74,8 +74,9 @@ namespace tetradapt::report
   find_gnuplot();
 
   /**
-   * Writes pictures, <name>.svg, and beside each the script <name>.gp that it was made by,
-   * into a folder. Without gnuplot there are only scripts, and the log says so
+   * Writes pictures, <name>.svg, and next to each the script <name>.gp that it was made by,
+   * into a folder. One gnuplot draws all pictures, since its start takes longer than a
+   * picture. Without gnuplot there are only scripts, and the log says so
    * once; that a picture fails is a warning, never the end of a run.
    */
   class PictureFolder
@@ -85,16 +86,32 @@ namespace tetradapt::report
      * @param log must outlive the object. */
     PictureFolder(const std::string &folder, const core::Log &log);
 
-    /** Writes nothing for an empty script.
+    /** Writes the script; the picture is drawn by draw(). Nothing for an empty script.
      * @throws InputError or NumericalError if a file cannot be written. */
     void
     add(const std::string &name, const std::string &script);
 
+    /** Draws what was added since the last call; starts no gnuplot if that is nothing.
+     * @throws as add(). */
+    void
+    draw();
+
   private:
-    std::string      folder;
-    const core::Log &log;
-    std::string      program;
-    bool             missing_was_said = false;
+    struct Picture
+    {
+      std::string name, script;
+    };
+
+    /** Draws @p pictures with one gnuplot; returns what went wrong, if something did:
+     * ": " and a message, or the time that it took. */
+    std::optional<std::string>
+    draw(const std::vector<Picture> &pictures) const;
+
+    std::string          folder;
+    const core::Log     &log;
+    std::string          program;
+    std::vector<Picture> waiting;
+    bool                 missing_was_said = false;
   };
 } // namespace tetradapt::report
 

@@ -12,7 +12,9 @@
 namespace tetradapt::report
 {
   /**
-   * Shows a log's messages on a stream, normally stderr. Progress is one line that
+   * Shows a log's messages on a stream, normally stderr; details only where they are
+   * asked for. Warnings and errors are broken into lines on terminals only, so that a file
+   * has each in one line. Progress is one line that
    * the next message replaces; it is for terminals and never goes to a file.
    * Watches from construction to destruction.
    */
@@ -27,7 +29,9 @@ namespace tetradapt::report
       bool quiet = false;
       /** No information, but progress, warnings and errors. */
       bool brief = false;
-      /** Longer progress lines are cut. */
+      /** Details also. */
+      bool verbose = false;
+      /** Longer progress lines are cut, longer lines of information broken, at 80 also. */
       unsigned int width = 80;
       /** Progress that differs from the line before only in its numbers and comes
        * sooner, in seconds, is dropped, so that an iteration may report every step.
@@ -52,6 +56,8 @@ namespace tetradapt::report
   private:
     void
     show(core::LogLevel level, const std::string &text);
+    bool
+    is_shown(core::LogLevel level) const;
     void
     show_progress(const std::string &text);
     void

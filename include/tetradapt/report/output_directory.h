@@ -67,9 +67,13 @@ namespace tetradapt::report
     std::string
     files_to_look_at() const;
 
-    /** The same after a study that wrote to @p directory. */
+    /** The same in one line: the folder and the names. */
+    std::string
+    files_in_short() const;
+
+    /** files_in_short() after a study that wrote to @p directory. */
     static std::string
-    study_files_to_look_at(const std::string &directory);
+    study_files_in_short(const std::string &directory);
 
   private:
     std::string directory;

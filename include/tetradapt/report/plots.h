@@ -39,9 +39,12 @@ namespace tetradapt::report
 
   /** Pictures of a study, a curve a run: the energy error against unknowns and seconds, the
    * effectivity of what drives, mean REN against cycles and against tetrahedra (ren_tets), the
-   * error of the first goal with a known value (goal_dofs). */
+   * error of the first goal with a known value (goal_dofs).
+   * @param key what colours and lines stand for, in small letters below; may be empty. */
   std::vector<NamedPlot>
-  plots_of_study(const std::string &title, const std::vector<PlottedRun> &runs);
+  plots_of_study(const std::string             &title,
+                 const std::vector<PlottedRun> &runs,
+                 const std::string             &key = "");
 
   /** The effectivity of the estimator that drives, or where it has none that of the
    * difference to the reference. */
@@ -49,7 +52,7 @@ namespace tetradapt::report
   main_effectivity(const adapt::CycleRecord &record);
 
   /** Best slopes in unknowns for elements of the degrees in use: the energy norm's, and
-   * with @p with_l2 those of L2 too. */
+   * with @p with_l2 those of L2 also. */
   std::vector<PlotSlope>
   theoretical_slopes(const std::vector<unsigned int> &degrees, bool with_l2);
 
@@ -99,6 +102,7 @@ namespace tetradapt::report
   draw_study(const std::string             &directory,
              const std::string             &title,
              const std::vector<PlottedRun> &runs,
+             const std::string             &key,
              const core::Log               &log);
 } // namespace tetradapt::report
 

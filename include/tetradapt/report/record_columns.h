@@ -72,8 +72,9 @@ namespace tetradapt::report
     RecordColumn column;
   };
 
-  /** The few figures that a user watches, as far as the records have them: sizes, errors,
-   * the driving estimator and its effectivity, the first goal, the time. */
+  /** The few figures that a user watches, as far as the records have them and 80 characters
+   * have room: sizes, errors, the driving estimator and its effectivity, the first goal, the
+   * time. What is less important is left out first. */
   std::vector<TerminalColumn>
   terminal_columns(const std::vector<adapt::CycleRecord> &records);
 

@@ -33,7 +33,7 @@ namespace tetradapt::scene
   /** How the error is estimated; see scene.h for the three functions. */
   struct EstimationParameters
   {
-    /** Estimators that every cycle computes beside the one that drives. */
+    /** Estimators that every cycle computes in addition to the one that drives. */
     std::vector<ErrorEstimator> estimators;
     /** The goal that ErrorEstimator::goal is about; empty: the first. */
     std::string goal;

@@ -5,6 +5,8 @@
 #include "tetradapt/scene/scene.h"
 
 #include <iosfwd>
+#include <string>
+#include <vector>
 
 namespace tetradapt::scene
 {
@@ -16,9 +18,12 @@ namespace tetradapt::scene
   };
 
   /** Prints all parameters with defaults and documentation; blocks with names
-   * that users choose appear once, called <name>. */
+   * that users choose appear once, called <name>.
+   * @param laws names of the constitutive laws, which this room does not know. */
   void
-  print_parameters(std::ostream &stream, ParameterFormat format);
+  print_parameters(std::ostream                   &stream,
+                   ParameterFormat                 format,
+                   const std::vector<std::string> &laws);
 
   /** All parameters of @p scene in the format of a scene's file: reading them
    * again gives the same scene (from the same working directory). */

@@ -46,7 +46,7 @@ namespace tetradapt::scene
       marking,              ///< choosing the tetrahedra to refine
       sizing,               ///< the size field of the next mesh
       tetgen_refinement,    ///< refining from cycle to cycle
-      body_remeshing,       ///< meshing the body anew, so that elements can grow
+      body_remeshing,       ///< meshing the body from scratch, so that elements can grow
       boundary_projection,  ///< moving new points to the curved boundary
       uniform_refinement,   ///< cutting every tetrahedron into 8
       stress_recovery,      ///< stresses for output

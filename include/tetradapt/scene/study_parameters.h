@@ -31,7 +31,8 @@ namespace tetradapt::scene
     enum class Stopping
     {
       residual,      ///< the tolerance
-      discretisation ///< the iterate's own error, estimated, is small beside that of the mesh
+      discretisation ///< the iterate's own error, estimated, is small compared with that of the
+                     ///< mesh
     };
     Stopping stopping              = Stopping::residual;
     double   solver_error_fraction = 0.1; ///< discretisation: of the error of the mesh

@@ -25,7 +25,7 @@ namespace tetradapt::solve
          unsigned int                                  n_aggregates,
          double                                        omega);
 
-  /** P^T A P for the rows of @p matrix only; @p prolongation has those of ghosts, too.
+  /** P^T A P for the rows of @p matrix only; @p prolongation has those of ghosts also.
    * All @p n_aggregates rows. */
   template <unsigned int n>
   BlockRows<6, 6>

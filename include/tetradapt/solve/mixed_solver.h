@@ -13,8 +13,8 @@ namespace tetradapt::solve
   /**
    * @p scene with each material replaced by one of the same shear modulus and with the gamma of
    * mechanics::PressureForm as Lame's first constant, in displacement form: its stiffness is what
-   * the mixed form has besides the pressure, so that assembly, thermal forces and multigrid serve
-   * both.
+   * the mixed form has in addition to the pressure, so that assembly, thermal forces and multigrid
+   * serve both.
    */
   scene::Scene
   kept_scene(const scene::Scene &scene);

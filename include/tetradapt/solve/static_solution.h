@@ -32,7 +32,7 @@ namespace tetradapt::solve
     std::string  solver;            ///< what solved it, for the log
     /** Energy norm of what conjugate gradients left, as they estimated it; 0: direct. */
     double algebraic_error = 0.;
-    /** Iterations that the residual's tolerance alone would have taken, foretold from
+    /** Iterations that the residual's tolerance alone would have taken, predicted from
      * the rate of convergence; equal to iterations where that ended it. */
     unsigned int iterations_to_tolerance = 0;
     /** The system, where the caller keeps it for dual problems; may be null. */

@@ -65,7 +65,7 @@ namespace tetradapt::solve
                  std::vector<dealii::Tensor<1, 3>>       &displacement) const;
 
     /** The loads' forces on the nodes, whole on every rank; where supports hold a
-     * component, too. Collective. */
+     * component also. Collective. */
     std::vector<dealii::Tensor<1, 3>>
     nodal_forces() const;
 
