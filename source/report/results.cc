@@ -4,6 +4,7 @@
 #include "tetradapt/core/atomic_file.h"
 #include "tetradapt/report/record_columns.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tetradapt::report
@@ -94,17 +95,22 @@ namespace tetradapt::report
   std::string
   text_results(const std::vector<Result> &results)
   {
-    std::vector<std::vector<std::string>> rows{heading};
-    for (std::string &name : rows[0])
-      for (char &c : name)
-        c = c == '_' ? ' ' : c;
+    // Short, for the screen has 80 columns; what no result has is left out.
+    std::vector<std::vector<std::string>> rows{
+      {"result", "exact", "computed", "error", "rel. error", "estimate", "source"}};
     for (const Result &result : results)
       {
         rows.push_back({result.name});
         for (const auto &figure : figures(result))
-          rows.back().push_back(format_cell(Kind::figure, figure, 7, -1, "-"));
+          rows.back().push_back(format_cell(Kind::figure, figure, 6, -1, "-"));
         rows.back().push_back(result.error_source.empty() ? "-" : result.error_source);
       }
+    for (std::size_t column = rows[0].size(); column-- > 0;)
+      if (std::all_of(rows.begin() + 1, rows.end(), [&](const auto &row) {
+            return row[column] == "-";
+          }))
+        for (auto &row : rows)
+          row.erase(row.begin() + column);
     return aligned_table(rows, 1);
   }
 
