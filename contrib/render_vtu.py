@@ -127,7 +127,7 @@ def deformed(grid, factor):
 def surface_of(grid):
     surface = vtk.vtkDataSetSurfaceFilter()
     surface.SetInputData(grid)
-    surface.SetNonlinearSubdivisionLevel(1)
+    surface.SetNonlinearSubdivisionLevel(0)  # edges are those of the mesh
     surface.Update()
     return surface.GetOutput()
 
@@ -211,6 +211,19 @@ def colour_bar(table, title, height):
     return bar
 
 
+def lengths_seen(bounds, camera):
+    """Lengths of the body's three edges as the eye sees them."""
+    normal = camera.GetDirectionOfProjection()
+    return [(bounds[2 * i + 1] - bounds[2 * i]) * math.sqrt(max(0., 1 - normal[i] ** 2))
+            for i in range(3)]
+
+
+def range_text(low, high):
+    """" = 0 to 1", rounded to a hundredth of the length."""
+    step = 10. ** math.floor(math.log10(high - low)) / 100 if high > low else 1.
+    return " = " + " to ".join(f"{round(end / step) * step:.4g}" for end in (low, high))
+
+
 def axes_of(bounds, camera, unit, height):
     axes = vtk.vtkCubeAxesActor()
     axes.SetBounds(bounds)
@@ -218,8 +231,19 @@ def axes_of(bounds, camera, unit, height):
     axes.SetFlyModeToOuterEdges()
     axes.SetTickLocationToOutside()
     axes.SetScreenSize(height / 65)
+    seen = lengths_seen(bounds, camera)
     for axis, name in enumerate("XYZ"):
-        getattr(axes, f"Set{name}Title")(name.lower())
+        title = name.lower()
+        if seen[axis] < 0.45 * max(seen):  # numbers would lie on each other
+            blanks = vtk.vtkStringArray()
+            for _ in range(20):
+                blanks.InsertNextValue(" ")
+            axes.SetAxisLabels(axis, blanks)
+            title += range_text(*bounds[2 * axis:2 * axis + 2])
+        if seen[axis] < 0.06 * max(seen):  # seen from its end
+            getattr(axes, f"{name}AxisVisibilityOff")()
+            title = " "
+        getattr(axes, f"Set{name}Title")(title)
         getattr(axes, f"Set{name}Units")(unit)
         getattr(axes, f"Set{name}LabelFormat")("%-#.3g")
         getattr(axes, f"{name}AxisMinorTickVisibilityOff")()
@@ -257,7 +281,7 @@ def fit(camera, bounds, aspect, with_bar):
     vtk.vtkMath.Normalize(right)
     vtk.vtkMath.Cross(right, normal, up)
     room = 0.74 if with_bar else 0.92
-    scale = max(span(corners, up) / 0.72, span(corners, right) / (0.86 * room * aspect))
+    scale = max(span(corners, up) / 0.78, span(corners, right) / (0.86 * room * aspect))
     camera.SetParallelScale(scale / 2)
     if with_bar:  # the body moves to the left
         shift = [(0.92 - room) / 2 * scale * aspect * part for part in right]
