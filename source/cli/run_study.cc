@@ -61,9 +61,7 @@ namespace tetradapt::cli
       std::string lines;
       for (std::size_t v = 1; v < study.variations.size(); ++v)
         lines += (v == 1 ? "" : ", ") + study.variations[v].name;
-      return lines.empty()
-               ? ""
-               : "colours: " + study.variations[0].name + "; lines and points: " + lines;
+      return lines.empty() ? "" : "colour: " + study.variations[0].name + ", line: " + lines;
     }
 
     std::vector<report::PlottedRun>
@@ -173,7 +171,7 @@ namespace tetradapt::cli
                                           std::cerr,
                                           report::TerminalSink::stderr_options(options.quiet));
       if (spoken)
-        std::cout << "\n" << text_study(runs, outcomes) << std::flush;
+        std::cout << "\n" << text_study(runs, outcomes, 80) << std::flush;
       if (study.output.plots)
         report::draw_study(directory,
                            study.title.empty() ? study.name : study.title,

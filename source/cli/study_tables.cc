@@ -5,6 +5,8 @@
 #include "tetradapt/report/plots.h"
 #include "tetradapt/report/record_columns.h"
 
+#include <algorithm>
+
 namespace tetradapt::cli
 {
   namespace
@@ -25,6 +27,49 @@ namespace tetradapt::cli
         if (record->acceptance == adapt::Acceptance::accepted)
           return &*record;
       return nullptr;
+    }
+    using Rows = std::vector<std::vector<std::string>>;
+
+    std::size_t
+    width_of(const Rows &rows)
+    {
+      const std::string table = report::aligned_table(rows, 2);
+      return table.find('\n');
+    }
+
+    /** Leaves out columns without figures, then the less important ones, then cuts the names
+     * of the runs, until @p rows fit. */
+    void
+    make_narrower(const std::size_t most_characters, Rows &rows)
+    {
+      const auto erase = [&](const std::size_t column) {
+        for (auto &row : rows)
+          row.erase(row.begin() + column);
+      };
+      for (std::size_t column = rows[0].size(); column-- > 2;)
+        if (std::all_of(rows.begin() + 1, rows.end(), [&](const auto &row) {
+              return row[column] == "-";
+            }))
+          erase(column);
+      for (const std::string name : {"cycles", "effect.", "mean REN", "estimate", "seconds"})
+        if (width_of(rows) > most_characters)
+          {
+            const auto found = std::find(rows[0].begin(), rows[0].end(), name);
+            if (found != rows[0].end())
+              erase(found - rows[0].begin());
+          }
+      while (width_of(rows) > most_characters)
+        {
+          const auto longest = std::max_element(rows.begin(), rows.end(), [](auto &a, auto &b) {
+            return a[1].size() < b[1].size();
+          });
+          if ((*longest)[1].size() < 8)
+            break;
+          std::string &text = (*longest)[1];
+          while ((text.back() & 0xC0) == 0x80) // the rest of a character of UTF-8
+            text.pop_back();
+          text.pop_back();
+        }
     }
   } // namespace
 
@@ -58,7 +103,9 @@ namespace tetradapt::cli
   }
 
   std::string
-  text_study(const std::vector<StudyRun> &runs, const std::vector<StudyOutcome> &outcomes)
+  text_study(const std::vector<StudyRun>     &runs,
+             const std::vector<StudyOutcome> &outcomes,
+             const unsigned int               most_characters)
   {
     using report::format_number;
     const auto cell = [](const std::optional<double> &value) {
@@ -100,6 +147,8 @@ namespace tetradapt::cli
                               : outcomes[i].is_done ? "done"
                                                     : "not yet");
       }
+    if (most_characters > 0)
+      make_narrower(most_characters, rows);
     return report::aligned_table(rows, 2);
   }
 } // namespace tetradapt::cli

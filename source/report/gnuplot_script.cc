@@ -230,6 +230,8 @@ namespace tetradapt::report
       script += logarithmic_axis("y", y);
     if (plot.whole_x)
       script += "set xtics " + number(std::ceil((x.upper - x.lower) / 15.)) + "\n";
+    if (!plot.key.empty())
+      script += "set key title " + gnuplot_text(plot.key) + " left noenhanced\n";
     if (!plot.explanation.empty())
       script += "set label " + gnuplot_text(plot.explanation)
                 + " at screen 0.99,0.025 right textcolor rgb '#606060' font ',12'\n";

@@ -242,8 +242,7 @@ namespace tetradapt::report
                     y_label,
                     abscissa,
                     with_slopes ? theoretical_slopes(degrees, false) : std::vector<PlotSlope>());
-      plot.explanation
-        = key + (key.empty() || plot.explanation.empty() ? "" : "; ") + plot.explanation;
+      plot.key = key;
       for (const PlottedRun &run : runs)
         plot.curves.push_back(
           {run.label, points_of(run.records, abscissa, figure), run.colour, run.pattern, false});

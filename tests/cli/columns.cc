@@ -114,5 +114,20 @@ main()
       heading[heading.find(name) + name.find(' ')] = '_';
   compare("`study.txt`", parts_of(heading, ' '));
   plots();
-  std::cout << "sections of the page: " << documented().size() << std::endl;
+
+  // The study's table on a screen: the longest label is cut, whole characters at a time.
+  std::vector<cli::StudyRun>     runs(2);
+  std::vector<cli::StudyOutcome> outcomes(2);
+  runs[0].label = "short";
+  for (unsigned int i = 0; i < 60; ++i)
+    runs[1].label += "\xC3\xA9";
+  for (auto &outcome : outcomes)
+    {
+      outcome.records.resize(3);
+      outcome.records.back().dofs                  = 123456789;
+      outcome.records.back().relative_energy_error = 1.2345678e-9;
+      outcome.is_done                              = true;
+    }
+  std::cout << cli::text_study(runs, outcomes, 80)
+            << "sections of the page: " << documented().size() << std::endl;
 }

@@ -28,9 +28,13 @@ namespace tetradapt::cli
             const std::vector<StudyOutcome> &outcomes);
 
   /** study.txt: a row a run, with the figures of the last cycle that was accepted and the
-   * time of all. */
+   * time of all.
+   * @param most_characters of a line, for a screen: columns are left out until it has room, and
+   * the names of runs are cut; 0: no limit. */
   std::string
-  text_study(const std::vector<StudyRun> &runs, const std::vector<StudyOutcome> &outcomes);
+  text_study(const std::vector<StudyRun>     &runs,
+             const std::vector<StudyOutcome> &outcomes,
+             unsigned int                     most_characters = 0);
 } // namespace tetradapt::cli
 
 #endif

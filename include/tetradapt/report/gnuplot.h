@@ -43,6 +43,7 @@ namespace tetradapt::report
     std::vector<PlotSlope> slopes;      ///< on two logarithmic axes only
     std::optional<double>  level;       ///< a horizontal line that curves should meet
     std::string            explanation; ///< small, below; may be empty
+    std::string            key;         ///< above the names of the curves; may be empty
   };
 
   /** Groups of bars: for each class one bar a series. */

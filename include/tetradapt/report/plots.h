@@ -40,7 +40,7 @@ namespace tetradapt::report
   /** Pictures of a study, a curve a run: the energy error against unknowns and seconds, the
    * effectivity of what drives, mean REN against cycles and against tetrahedra (ren_tets), the
    * error of the first goal with a known value (goal_dofs).
-   * @param key what colours and lines stand for, in small letters below; may be empty. */
+   * @param key what colours and lines stand for; may be empty. */
   std::vector<NamedPlot>
   plots_of_study(const std::string             &title,
                  const std::vector<PlottedRun> &runs,
