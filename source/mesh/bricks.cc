@@ -54,10 +54,14 @@ namespace tetradapt::mesh
         {
           // This form is exact at both ends and symmetric.
           x[i] = (lower[d] * (n - i) + upper[d] * i) / n;
-          if (!std::isfinite(x[i]) || (i > 0 && !(x[i] > x[i - 1])))
-            throw core::InputError("The box from " + to_string(lower) + " to " + to_string(upper)
-                                   + " cannot be cut into " + std::to_string(n) + " bricks along "
-                                   + "xyz"[d] + ": their coordinates cannot be told apart.");
+          // Far from the origin rounding would make bricks of different sizes.
+          const double rounding = std::numeric_limits<double>::epsilon() * std::abs(x[i]);
+          if (!std::isfinite(x[i]) || (i > 0 && !(x[i] - x[i - 1] > 1e4 * rounding)))
+            throw core::InputError(
+              "The box from " + to_string(lower) + " to " + to_string(upper)
+              + " cannot be cut into " + std::to_string(n) + " bricks along " + "xyz"[d]
+              + ": their coordinates, which are rounded, cannot be told apart. "
+                "Move the box to the origin, or ask for fewer bricks.");
         }
       x[0] = lower[d];
       x[n] = upper[d];

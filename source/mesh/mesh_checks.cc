@@ -195,10 +195,16 @@ namespace tetradapt::mesh
           length = std::sqrt(length);
 
           // The second term: rounding of coordinates far from the origin.
-          const double volume = dealii::cross_product_3d(edges[0], edges[1]) * edges[2];
-          const double smallest
-            = length * length
-              * (1e-12 * length + 4. * std::numeric_limits<double>::epsilon() * size);
+          const double volume   = dealii::cross_product_3d(edges[0], edges[1]) * edges[2];
+          const double rounding = 4. * std::numeric_limits<double>::epsilon() * size;
+          const double smallest = length * length * (1e-12 * length + rounding);
+          if (!(std::abs(volume) > smallest) && rounding > 1e-3 * length)
+            throw core::InputError(what + ": " + describe_cell(mesh, c)
+                                   + " is too far from the origin for its size: rounding of its "
+                                     "coordinates, "
+                                   + number_text(rounding, 3) + ", leaves its edges of "
+                                   + number_text(length, 6)
+                                   + " without digits. Move the body to the origin.");
           if (!(std::abs(volume) > smallest))
             throw core::InputError(what + ": " + describe_cell(mesh, c) + " is flat: its volume is "
                                    + number_text(volume / 6., 6)

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <sstream>
 
@@ -13,6 +14,27 @@ namespace tetradapt::mesh
   namespace
   {
     constexpr double flattest_box = 1e-3; ///< shortest side by longest
+
+    /** Digits of a coordinate that the shortest side must be left with. */
+    constexpr double least_precision = 1e-4;
+
+    /** A box far from the origin has none. */
+    void
+    check_place(const Point<3> &lower, const Point<3> &upper)
+    {
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          const double farthest = std::max(std::abs(lower[d]), std::abs(upper[d]));
+          const double rounding = std::numeric_limits<double>::epsilon() * farthest;
+          if (!(rounding > least_precision * (upper[d] - lower[d])))
+            continue;
+          std::ostringstream message;
+          message << "The box is too far from the origin for its size: a coordinate of " << farthest
+                  << " is rounded by " << rounding << ", and the side along "
+                  << "xyz"[d] << " is " << upper[d] - lower[d] << ". Move the box to the origin.";
+          throw core::InputError(message.str());
+        }
+    }
 
     void
     check_box(const Point<3> &lower, const Point<3> &upper)
@@ -32,6 +54,7 @@ namespace tetradapt::mesh
           message << '.';
           throw core::InputError(message.str());
         }
+      check_place(lower, upper);
       const Tensor<1, 3> size     = upper - lower;
       const double       shortest = std::min({size[0], size[1], size[2]});
       const double       longest  = std::max({size[0], size[1], size[2]});

@@ -152,6 +152,7 @@ namespace tetradapt::mesh
       throw InputError("The bound on the volume of tetrahedra must be a finite number.");
     const auto surface = geometry::check_surface(triangulate(plc), plc.name);
     check_seeds(surface, plc);
+    check_thickness(surface.volume, surface.area, parameters.time_limit, plc.name);
     if (sizing.max_volume > 0.)
       check_number_of_cells(expected_cells(surface.volume, sizing.max_volume),
                             parameters.memory_limit,

@@ -64,9 +64,27 @@ namespace tetradapt::mesh
           return "SIGFPE";
         case SIGBUS:
           return "SIGBUS";
+        case SIGILL:
+          return "SIGILL";
+        case SIGKILL:
+          return "SIGKILL";
+        case SIGTERM:
+          return "SIGTERM";
+        case SIGINT:
+          return "SIGINT";
+        case SIGHUP:
+          return "SIGHUP";
         default:
           return "signal " + std::to_string(signal);
         }
+    }
+
+    /** Whether a program gets @p signal by its own mistake. */
+    bool
+    is_crash(const int signal)
+    {
+      return signal == SIGSEGV || signal == SIGBUS || signal == SIGFPE || signal == SIGILL
+             || signal == SIGABRT;
     }
 
     [[noreturn]] void
@@ -85,6 +103,31 @@ namespace tetradapt::mesh
                              "TetGen/Time limit.");
     }
 
+    /** What to say of a child that @p signal ended. */
+    [[noreturn]] void
+    fail_by_signal(const std::string  &what,
+                   const TetgenLimits &limits,
+                   const int           signal,
+                   const std::string  &errors)
+    {
+      if (signal == SIGXCPU)
+        fail_time(what, limits);
+      const std::string name = " (" + signal_name(signal) + ')';
+      if (is_crash(signal))
+        throw NumericalError("TetGen crashed" + name + " on " + what
+                             + ". That is a fault of TetGen that some bodies and sizes bring "
+                               "about: change the wanted size slightly, or remove tiny edges and "
+                               "faces from the surface."
+                             + last_words(errors));
+      if (signal == SIGKILL)
+        throw NumericalError("TetGen was killed" + name + " while it worked on " + what
+                             + ". The system does so when the memory of the machine, of a "
+                               "container or of a batch job is used up: ask for larger "
+                               "tetrahedra, or set TetGen/Memory limit below what there is.");
+      throw NumericalError("TetGen was ended from outside" + name + " while it worked on " + what
+                           + ". Nothing is wrong with the input; start the run again.");
+    }
+
     /** Explains a child that ended without a whole reply. */
     [[noreturn]] void
     fail_without_reply(const std::string  &what,
@@ -96,19 +139,8 @@ namespace tetradapt::mesh
       std::string advice = "The input may touch or cross itself within rounding: repair it, or "
                            "change the wanted size slightly.";
       if (status >= 0 && WIFSIGNALED(status))
-        {
-          const int signal = WTERMSIG(status);
-          if (signal == SIGXCPU)
-            fail_time(what, limits);
-          how = "crashed (" + signal_name(signal) + ')';
-          if (signal == SIGKILL)
-            {
-              how    = "was killed from outside";
-              advice = "The machine may have run out of memory: ask for larger tetrahedra or lower "
-                       "TetGen/Memory limit.";
-            }
-        }
-      else if (status >= 0 && WIFEXITED(status) && WEXITSTATUS(status) == 127)
+        fail_by_signal(what, limits, WTERMSIG(status), errors);
+      if (status >= 0 && WIFEXITED(status) && WEXITSTATUS(status) == 127)
         {
           how    = "could not be started";
           advice = "Build or install the program tetradapt-tetgen again.";

@@ -7,6 +7,7 @@
 #include "tetradapt/core/expression.h"
 #include "tetradapt/mesh/size_function.h"
 #include "tetradapt/mesh/tetgen.h"
+#include "tetradapt/mesh/tetgen_demand.h"
 #include "tetradapt/mesh/tetgen_process.h"
 #include "tetradapt/mesh/tetgen_request.h"
 
@@ -90,6 +91,45 @@ namespace
     expect("empty", [] { mesh::box_complex(Point<3>(0, 0, 0), Point<3>(1, 1, 0)); });
     expect("inverted", [] { mesh::box_complex(Point<3>(0, 0, 0), Point<3>(1, -1, 1)); });
     expect("flat", [] { mesh::box_complex(Point<3>(0, 0, 0), Point<3>(1, 1, 1e-4)); });
+    // As large as its distance from the origin is precise.
+    const auto far = [](const double x, const double edge) {
+      return [=] {
+        const Point<3> lower(x, 0, 0);
+        mesh::box_complex(lower, lower + Point<3>(edge, edge, edge));
+      };
+    };
+    expect("far", far(4e15, 2.));
+    expect("far, the other way", far(-4e15, 2.));
+    expect("far, but large", far(4e15, 2e15));
+    expect("large", far(0., 1e15));
+  }
+
+  /** Bodies so thin that tetrahedra of a good shape are too many, whatever is wanted. */
+  void
+  refuse_thin_bodies()
+  {
+    const auto plate = [](const double width, const double thickness, const double seconds) {
+      return [=] {
+        TetgenParameters parameters;
+        parameters.time_limit = seconds;
+        mesh::Tetgen(parameters)
+          .mesh(mesh::box_complex(Point<3>(0, 0, 0), Point<3>(width, width, thickness)), Sizing());
+      };
+    };
+    expect("1000 times wider than thick", plate(3000., 3., 600.));
+    expect("the same, little time", plate(3., .006, 20.));
+    // What the estimate says is what TetGen makes.
+    for (const double ratio : {20., 50.})
+      {
+        const double thickness = 3. / ratio, area = 2. * 9. + 4. * 3. * thickness;
+        const double n
+          = mesh::Tetgen(TetgenParameters())
+              .mesh(mesh::box_complex(Point<3>(0, 0, 0), Point<3>(3., 3., thickness)), Sizing())
+              .n_cells();
+        const double estimate = mesh::least_cells(9. * thickness, area);
+        std::cout << "ratio " << ratio << ": within 30 % "
+                  << (n > .7 * estimate && n < 1.3 * estimate) << std::endl;
+      }
   }
 
   /** What the screening finds before TetGen is called. */
@@ -200,6 +240,10 @@ namespace
     script("segfault", "ulimit -c 0; kill -SEGV $$");
     script("abort", "ulimit -c 0; echo first >&2; echo Assertion failed >&2; kill -ABRT $$");
     script("killed", "kill -KILL $$");
+    script("ended", "kill -TERM $$");
+    script("no_instruction", "ulimit -c 0; kill -ILL $$");
+    script("user_signal", "kill -USR1 $$");
+    script("processor_time", "kill -XCPU $$");
     script("silent", "exit 0");
     script("babble", "echo hello; cat > /dev/null");
     script("zeros", "head -c 4096 /dev/zero");
@@ -214,6 +258,7 @@ main()
 {
   refuse_parameters();
   refuse_boxes();
+  refuse_thin_bodies();
   refuse_boundaries();
   refuse_sizes();
   fail_in_child();

@@ -23,6 +23,20 @@ namespace tetradapt::mesh
   double
   expected_cells(double volume, double volume_bound);
 
+  /** About how many cells of a good shape a thin body of this volume and surface has at
+   * least: as long as it is thick. For others it is an underestimate. */
+  double
+  least_cells(double volume, double area);
+
+  /**
+   * Refuses a body so thin that TetGen would work on it for too long.
+   *
+   * @param time_limit seconds that TetGen may work.
+   * @throws InputError with the estimate.
+   */
+  void
+  check_thickness(double volume, double area, double time_limit, const std::string &what);
+
   /**
    * Refuses sizes that cannot be met, before TetGen runs for hours.
    *
