@@ -109,8 +109,13 @@ namespace tetradapt::mesh
   std::vector<unsigned char>
   read_array(ByteSource                                     &source,
              const BinaryLayout                             &layout,
+             const std::uint64_t                             most,
              const std::function<void(const std::string &)> &fail)
   {
+    const auto too_long = [&](const std::uint64_t bytes) {
+      fail("it holds " + std::to_string(bytes) + " bytes; " + std::to_string(most)
+           + " are the most that it can have by the sizes that the file states.");
+    };
     const auto header = [&]() -> std::uint64_t {
       unsigned char bytes[8];
       source.read(bytes, layout.header_bytes);
@@ -130,6 +135,8 @@ namespace tetradapt::mesh
       {
         if (first > source.remaining())
           fail("the array is cut off: its header promises " + std::to_string(first) + " bytes.");
+        if (first > most)
+          too_long(first);
         data.resize(first);
         source.read(data.data(), first);
         return data;
@@ -142,15 +149,18 @@ namespace tetradapt::mesh
     if (first > source.remaining() / layout.header_bytes)
       fail("the array is cut off: its header promises " + std::to_string(first) + " blocks.");
     std::vector<std::uint64_t> compressed(first);
-    std::uint64_t              total = 0;
+    std::uint64_t              total = 0, total_compressed = 0;
     for (std::size_t b = 0; b < first; ++b)
       {
         compressed[b]            = header();
         const std::uint64_t size = (b + 1 == first && last_size != 0) ? last_size : block_size;
         // zlib cannot compress better than 1 : 1032.
-        if (compressed[b] > source.remaining() || size > 1032 * compressed[b] + 64)
+        total_compressed += std::min<std::uint64_t>(compressed[b], source.remaining() + 1);
+        if (total_compressed > source.remaining() || size > 1032 * compressed[b] + 64)
           fail("the array is cut off, or its header is damaged.");
         total += size;
+        if (total > most)
+          too_long(total);
       }
     data.resize(total);
     std::size_t place = 0;

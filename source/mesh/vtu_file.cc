@@ -227,8 +227,23 @@ namespace tetradapt::mesh
 
 
 
+  std::uint64_t
+  VtuFile::most_numbers(const pugi::xml_node array) const
+  {
+    // As a bound on memory only: whoever uses the numbers checks how many there are.
+    constexpr std::uint64_t text = 1 << 24, numbers_a_point = 64, field = 1 << 20;
+    if (is_text(array))
+      return text;
+    const std::uint64_t tuples = array.attribute("NumberOfTuples").as_ullong();
+    if (tuples > 0)
+      return std::min<std::uint64_t>(tuples, std::uint64_t(1) << 40) * n_components(array);
+    return numbers_a_point * (n_points() + n_cells()) + field;
+  }
+
+
+
   std::vector<unsigned char>
-  VtuFile::bytes(const pugi::xml_node array) const
+  VtuFile::bytes(const pugi::xml_node array, const std::uint64_t most) const
   {
     const std::function<void(const std::string &)> complain
       = [&](const std::string &message) { fail(array, message); };
@@ -236,7 +251,7 @@ namespace tetradapt::mesh
     if (format == "binary")
       {
         ByteSource source(array.child_value(), true, complain);
-        return read_array(source, layout, complain);
+        return read_array(source, layout, most, complain);
       }
     if (format != "appended")
       fail(array, "unknown format " + excerpt(format) + ".");
@@ -248,7 +263,7 @@ namespace tetradapt::mesh
            "the offset " + excerpt(array.attribute("offset").value()) + " is not within the "
              + std::to_string(appended.size()) + " bytes of appended data: the file is cut off.");
     ByteSource source(appended.substr(offset), appended_base64, complain);
-    return read_array(source, layout, complain);
+    return read_array(source, layout, most, complain);
   }
 
 
@@ -268,7 +283,8 @@ namespace tetradapt::mesh
           type = ScalarType::int8;
         else if (!xml_scalar_type(type_name, type))
           fail(array, "numbers of type " + excerpt(type_name) + " cannot be read.");
-        const std::vector<unsigned char> data = bytes(array);
+        const std::vector<unsigned char> data
+          = bytes(array, (n > 0 ? n : most_numbers(array)) * size_of(type));
         if (data.size() % size_of(type) != 0)
           fail(array,
                "its " + std::to_string(data.size()) + " bytes are not a whole number of "

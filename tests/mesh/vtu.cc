@@ -10,6 +10,7 @@
 #include "tetradapt/mesh/vtu_reader.h"
 #include "tetradapt/mesh/vtu_writer.h"
 
+#include <sys/resource.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -261,6 +262,53 @@ edit(std::string text, const std::string &from, const std::string &to)
   return text;
 }
 
+/** Few bytes that stand for 300 MB. */
+void
+test_bombs()
+{
+  const Variant     v{"binary", true, true, false};
+  const std::string content = file_content(v);
+  const std::string zeros(1 << 20, '\0');
+  std::string       zip(2000, '\0');
+  uLongf            size = zip.size();
+  ::compress(reinterpret_cast<Bytef *>(&zip[0]),
+             &size,
+             reinterpret_cast<const Bytef *>(zeros.data()),
+             zeros.size());
+  std::vector<std::uint64_t> header{300, zeros.size(), 0};
+  header.insert(header.end(), 300, size);
+  std::string blocks;
+  for (unsigned int i = 0; i < 300; ++i)
+    blocks += zip.substr(0, size);
+  const std::string bomb = base64(bytes(header, v.big)) + base64(blocks);
+
+  const auto points = bytes(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1}, v.big);
+  const auto connectivity
+    = bytes(std::vector<std::int64_t>{0, 1, 2, 0, 1, 2, 3, 1, 2, 4, 3}, v.big);
+  read(edit(content, encoded(points, v), bomb));
+  read(edit(content, encoded(connectivity, v), bomb));
+  read(edit(content,
+            "</Piece>",
+            "</Piece><FieldData><Array type=\"String\" Name=\"region_names\" "
+            "NumberOfTuples=\"1\" format=\"binary\">"
+              + bomb + "</Array></FieldData>"));
+  read(edit(content,
+            "</Piece>",
+            "</Piece><FieldData><DataArray type=\"Int64\" Name=\"boundary_faces\" "
+            "NumberOfComponents=\"3\" NumberOfTuples=\"2\" format=\"binary\">"
+              + bomb
+              + "</DataArray><DataArray type=\"Int64\" Name=\"boundary_ids\" "
+                "NumberOfTuples=\"2\">7 8</DataArray></FieldData>"));
+  // Blocks that share their bytes: each fits into the file, all of them do not.
+  const std::uint64_t many = 1000, whole = 1000 * size;
+  header.assign({many, 1u << 20, 0});
+  header.insert(header.end(), many, whole);
+  read(edit(content, encoded(points, v), base64(bytes(header, v.big)) + base64(blocks)));
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  std::cout << "memory stays small: " << (usage.ru_maxrss < 200000) << std::endl;
+}
+
 void
 test_bad_files()
 {
@@ -375,6 +423,7 @@ main()
   test_round_trip(1);
   test_round_trip(2);
   test_variants();
+  test_bombs();
   test_bad_files();
   test_foreign_quadratic();
   std::filesystem::current_path("..");

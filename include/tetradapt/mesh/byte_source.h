@@ -3,6 +3,7 @@
 #define tetradapt_mesh_byte_source_h
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -59,10 +60,13 @@ namespace tetradapt::mesh
     unsigned int header_bytes = 4;     ///< 4 or 8
   };
 
-  /** The bytes of one array behind its header, decompressed. */
+  /** The bytes of one array behind its header, decompressed.
+   * @param most bytes that the array may have: a longer one is refused before memory is
+   *        taken for it, as a few compressed bytes may stand for a thousand times as many. */
   std::vector<unsigned char>
   read_array(ByteSource                                     &source,
              const BinaryLayout                             &layout,
+             std::uint64_t                                   most,
              const std::function<void(const std::string &)> &fail);
 
   /**

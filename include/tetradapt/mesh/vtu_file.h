@@ -93,8 +93,12 @@ namespace tetradapt::mesh
     size_attribute(const char *name) const;
     pugi::xml_node
     section(const std::string &name) const;
+    /** How many numbers an array can have at most by what else the file says. */
+    std::uint64_t
+    most_numbers(pugi::xml_node array) const;
+    /** @param most bytes that there may be. */
     std::vector<unsigned char>
-    bytes(pugi::xml_node array) const;
+    bytes(pugi::xml_node array, std::uint64_t most) const;
     template <typename T>
     std::vector<T>
     values(pugi::xml_node array, std::size_t n) const;
