@@ -192,6 +192,10 @@ namespace tetradapt::compare
     void
     add_file(Fingerprint &hash, const std::string &name)
     {
+      std::error_code error;
+      if (!std::filesystem::is_regular_file(name, error))
+        throw core::InputError("The reference's mesh file '" + name
+                               + "' is no file. Correct Reference/File.");
       std::ifstream     file(name, std::ios::binary);
       const std::string content{std::istreambuf_iterator<char>(file),
                                 std::istreambuf_iterator<char>()};

@@ -9,11 +9,15 @@
 
 #include "test_meshes.h"
 
+#include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <memory>
+#include <random>
 #include <set>
 
 using namespace test_meshes;
@@ -128,6 +132,142 @@ namespace
     std::filesystem::remove(file);
   }
 
+  /** @p bytes with a checksum and a length that fit. */
+  std::string
+  sealed(std::string bytes)
+  {
+    constexpr std::size_t length_at = 24, sum_at = 64, start = 96;
+    const std::uint64_t   length = bytes.size() - start;
+    bytes.replace(length_at, 8, reinterpret_cast<const char *>(&length), 8);
+    Fingerprint hash;
+    hash.add(bytes.data() + start, length);
+    return bytes.replace(sum_at, 32, hash.hex());
+  }
+
+  /** Whether all that others will take for granted is so. */
+  bool
+  is_sound(const CachedReference &reference)
+  {
+    const auto &mesh = reference.mesh;
+    bool        good = mesh.regions.size() == mesh.n_cells()
+                && std::isfinite(reference.energy + reference.estimated_error);
+    for (const auto &cell : mesh.cells)
+      for (const unsigned int v : cell)
+        good = good && v < mesh.n_points();
+    for (const auto &face : mesh.faces)
+      for (const unsigned int v : face.vertices)
+        good = good && v < mesh.n_points() && face.patch < mesh.patches.size();
+    for (const auto &value : reference.values)
+      good = good && std::isfinite(value.norm());
+    if (!good || !reference.hexahedra.empty())
+      return good; // its constructor checks the rest
+    const mesh::NodalField field(std::make_shared<mesh::TetMesh>(mesh), reference.degree);
+    return field.values.size() == reference.values.size()
+           && (reference.pressures.empty() || reference.pressures.size() == mesh.n_points());
+  }
+
+  /** A file that is whole by its checksum and wrong nevertheless. */
+  void
+  fuzz(const std::string &what, const CachedReference &example, const unsigned int n)
+  {
+    write_reference_cache(file, key, example);
+    const std::string good    = content();
+    constexpr int     start   = 96;
+    unsigned int      n_taken = 0, n_unsound = 0;
+    std::mt19937      generator(7);
+    const auto        below = [&](const std::size_t m) { return generator() % m; };
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        std::string bad = good;
+        for (unsigned int k = 0; k <= i % 3; ++k)
+          {
+            const std::size_t at = start + below(bad.size() - start - 8);
+            if (i % 4 == 0)
+              bad.erase(at, 1 + below(40));
+            else if (i % 4 == 1)
+              bad.insert(at, 1 + below(9), static_cast<char>(below(256)));
+            else if (i % 4 == 2)
+              bad[at] = static_cast<char>(below(256));
+            else
+              {
+                // A count or an index that is far too large, or a number that is none.
+                const std::size_t   word     = start + (at - start) / 8 * 8;
+                const std::uint64_t values[] = {~0ULL, 1ULL << 40, 1ULL << 31, 0x7ff8ULL << 48, 0};
+                bad.replace(word, 8, reinterpret_cast<const char *>(&values[below(5)]), 8);
+              }
+          }
+        bad = sealed(bad);
+        std::ofstream(file, std::ios::binary) << bad;
+        const CacheResult result = read_reference_cache(file, key);
+        n_taken += result.reference != nullptr;
+        n_unsound += result.reference != nullptr && !is_sound(*result.reference);
+      }
+    std::ofstream(file, std::ios::binary) << sealed(good);
+    std::cout << what << ": unchanged is read "
+              << (read_reference_cache(file, key).reference != nullptr)
+              << ", some changes are seen " << (n_taken < n) << ", unsound " << n_unsound
+              << std::endl;
+    std::filesystem::remove(file);
+  }
+
+  CachedReference
+  hexahedral_example()
+  {
+    CachedReference reference;
+    reference.degree = 2;
+    reference.planes = {{{0., 1., 3.}, {-1., 1.}, {0., 2.}}};
+    reference.hexahedra.resize(2);
+    reference.hexahedra[0].lower = Point<3>(0., -1., 0.);
+    reference.hexahedra[0].size  = Tensor<1, 3>({1., 2., 2.});
+    reference.hexahedra[1].lower = Point<3>(1., -1., 0.);
+    reference.hexahedra[1].size  = Tensor<1, 3>({2., 2., 2.});
+    reference.values.resize(54);
+    reference.energy = 1.;
+    return reference;
+  }
+
+  void
+  check_indices()
+  {
+    const auto problem = [](const auto &change) {
+      CachedReference reference = example();
+      change(reference);
+      write_reference_cache(file, key, reference);
+      const CacheResult result = read_reference_cache(file, key);
+      std::cout << "  " << (result.reference ? "none noticed" : result.problem) << std::endl;
+      std::filesystem::remove(file);
+    };
+    std::cout << "whole, but wrong:" << std::endl;
+    problem([](CachedReference &r) { r.mesh.cells[3][2] = r.mesh.n_points(); });
+    problem([](CachedReference &r) { std::swap(r.mesh.cells[5][0], r.mesh.cells[5][1]); });
+    problem([](CachedReference &r) { r.mesh.regions.pop_back(); });
+    problem([](CachedReference &r) { r.mesh.faces[1].vertices[0] = 4000; });
+    problem([](CachedReference &r) { r.mesh.faces[1].patch = 2; });
+    problem([](CachedReference &r) { r.mesh.points[7][1] = std::nan(""); });
+    problem([](CachedReference &r) { r.degree = 3; });
+    problem([](CachedReference &r) { r.degree = 1; });
+    problem([](CachedReference &r) { r.values.pop_back(); });
+    problem([](CachedReference &r) { r.values[9][0] = HUGE_VAL; });
+    problem([](CachedReference &r) { r.pressures.resize(26); });
+    problem([](CachedReference &r) { r.energy = std::nan(""); });
+    problem([](CachedReference &r) { r.hexahedra.resize(1); });
+    problem([](CachedReference &r) { r = hexahedral_example(); });
+    problem([](CachedReference &r) {
+      r = hexahedral_example();
+      std::swap(r.planes[0][1], r.planes[0][2]);
+    });
+    problem([](CachedReference &r) {
+      r                       = hexahedral_example();
+      r.hexahedra[1].lower[2] = 1.;
+    });
+    problem([](CachedReference &r) {
+      r              = hexahedral_example();
+      r.hexahedra[1] = r.hexahedra[0];
+    });
+    fuzz("tetrahedra", example(), 4000);
+    fuzz("hexahedra", hexahedral_example(), 2000);
+  }
+
   void
   check_keys()
   {
@@ -227,6 +367,7 @@ main()
 {
   check_round_trip(example());
   check_damage();
+  check_indices();
   check_keys();
   check_fingerprint();
 }
