@@ -87,9 +87,10 @@ namespace tetradapt::adapt
         core::on_first_rank(communicator, [&]() { announce(cycle); });
         decision = rejected ? fall_back() : finish(std::move(cycle));
       }
-    if (first)
+    core::on_first_rank(communicator, [&]() {
       for (Observer *observer : observers)
         observer->run_done(decision.text);
+    });
     if (decision.success)
       log.info(decision.text);
     else

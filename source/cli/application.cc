@@ -7,16 +7,26 @@
 #include "tetradapt/cli/run_scene.h"
 #include "tetradapt/cli/run_study.h"
 #include "tetradapt/core/exceptions.h"
+#include "tetradapt/core/interrupt_watcher.h"
+#include "tetradapt/core/printable.h"
 #include "tetradapt/mechanics/constitutive_law.h"
 #include "tetradapt/scene/plan.h"
 
 #include <deal.II/base/mpi.h>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <set>
+#include <sstream>
+#include <thread>
 
 namespace tetradapt::cli
 {
@@ -55,6 +65,8 @@ namespace tetradapt::cli
       setenv("OMPI_MCA_pml", "ob1", 0);
       setenv("OMPI_MCA_plm", "isolated", 0);
       setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+      // Processes that start at the same time remove each other's session folders, and die.
+      setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
     }
 
     std::string
@@ -73,7 +85,9 @@ namespace tetradapt::cli
     {
       const std::string name
         = scene.output.directory.empty() ? "output/" + scene.name : scene.output.directory;
-      return std::filesystem::weakly_canonical(name).string();
+      std::error_code   error;
+      const std::string whole = std::filesystem::weakly_canonical(name, error).string();
+      return error ? name : whole; // what is wrong with it, is said when it is made
     }
 
     /** The plan of a scene; of a study the names of its runs and the plan of the first. */
@@ -112,12 +126,12 @@ namespace tetradapt::cli
                 throw core::InputError(scene.with_place(error.what()));
               }
             for (const auto &warning : scene.warnings())
-              std::cerr << "warning: " << warning << '\n';
+              std::cerr << core::printable("warning: " + warning) << '\n';
             if (!options.quiet)
-              std::cerr << file << ": valid\n" << plan_text(scene, runs);
+              std::cerr << core::printable(file + ": valid\n" + plan_text(scene, runs));
           });
           if (outcome.code != Outcome::done && print)
-            std::cerr << "error: " << outcome.message << '\n';
+            print_error(outcome.message);
           worst = std::max(worst, outcome.code);
         }
       return worst;
@@ -142,6 +156,60 @@ namespace tetradapt::cli
         {
           throw core::InputError(scene.with_place(error.what()));
         }
+    }
+
+    /** A descriptor that is closed would be given to the next file that is opened, which
+     * would get what is printed. What is written to standard output then fails. */
+    void
+    occupy_standard_descriptors()
+    {
+      for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (::fcntl(descriptor, F_GETFD) < 0 && errno == EBADF)
+          {
+            const int opened
+              = ::open("/dev/null", descriptor == STDERR_FILENO ? O_WRONLY : O_RDONLY);
+            if (opened >= 0 && opened != descriptor)
+              {
+                ::dup2(opened, descriptor);
+                ::close(opened);
+              }
+          }
+    }
+
+    /** Writing to a closed pipe or beyond a limit shall fail, not kill. */
+    void
+    ignore_write_signals()
+    {
+      std::signal(SIGPIPE, SIG_IGN);
+      std::signal(SIGXFSZ, SIG_IGN);
+    }
+
+    /** What is done when a signal ends the program between two runs, or on a rank that
+     * writes nothing: such a one lets the first close its log before mpirun ends all. */
+    void
+    end_by_signal(const int signal)
+    {
+      const std::string text
+        = "error: Ended by " + core::InterruptWatcher::signal_name(signal) + ".\n";
+      if (!find_launch().first)
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      else if (::write(STDERR_FILENO, text.data(), text.size()) < 0)
+        return; // nobody is there to be told
+    }
+
+    /** Prints what an option asks for; returns the exit code. */
+    int
+    print(const std::string &text, const bool is_first)
+    {
+      if (!is_first)
+        return Outcome::done;
+      const Outcome outcome = attempt([&] {
+        std::cout << text;
+        require_written(std::cout);
+      });
+      if (outcome.code != Outcome::done)
+        print_error(outcome.message);
+      return outcome.code;
     }
 
     int
@@ -182,6 +250,8 @@ namespace tetradapt::cli
   int
   run_application(int argc, char **argv)
   {
+    occupy_standard_descriptors();
+    ignore_write_signals();
     const Launch launch = find_launch();
     Options      options;
     // Other ranks would only repeat what the first one says.
@@ -190,23 +260,21 @@ namespace tetradapt::cli
     if (parsed.code != Outcome::done)
       {
         if (launch.first)
-          std::cerr << "error: " << parsed.message << '\n';
+          print_error(parsed.message);
         return parsed.code;
       }
     switch (options.action)
       {
       case Options::Action::help:
-        if (launch.first)
-          std::cout << help_text();
-        return Outcome::done;
+        return print(help_text(), launch.first);
       case Options::Action::version:
-        if (launch.first)
-          std::cout << version_text();
-        return Outcome::done;
+        return print(version_text(), launch.first);
       case Options::Action::print_parameters:
-        if (launch.first)
-          scene::print_parameters(std::cout, options.format, mechanics::law_names());
-        return Outcome::done;
+        {
+          std::ostringstream text;
+          scene::print_parameters(text, options.format, mechanics::law_names());
+          return print(text.str(), launch.first);
+        }
       case Options::Action::validate:
         return validate(options, launch.first);
       case Options::Action::run:
@@ -225,6 +293,8 @@ namespace tetradapt::cli
     char                                          *names[] = {argv[0], nullptr};
     char                                         **first   = names;
     const dealii::Utilities::MPI::MPI_InitFinalize mpi(n_names, first, 1);
+    core::InterruptWatcher                         interrupts(end_by_signal);
+    run_options.interrupts = &interrupts;
     return run(options, run_options);
   }
 } // namespace tetradapt::cli

@@ -2,11 +2,15 @@
 #include "tetradapt/cli/outcome.h"
 
 #include "tetradapt/core/exceptions.h"
+#include "tetradapt/core/printable.h"
 
 #include <deal.II/base/exceptions.h>
 
 #include <array>
+#include <cerrno>
 #include <chrono>
+#include <cstring>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <sstream>
@@ -14,6 +18,12 @@
 
 namespace tetradapt::cli
 {
+  void
+  print_error(const std::string &message)
+  {
+    std::cerr << "error: " + core::printable(message) + "\n" << std::flush;
+  }
+
   namespace
   {
     /** The sentence of a deal.II exception, without its frame and stack. */
@@ -27,12 +37,6 @@ namespace tetradapt::cli
       while (words >> word)
         text += (text.empty() ? "" : " ") + word;
       return std::string(error.get_exc_name()) + (text.empty() ? "" : ": " + text);
-    }
-
-    void
-    print_error(const std::string &message)
-    {
-      std::cerr << "error: " + message + "\n" << std::flush;
     }
   } // namespace
 
@@ -52,6 +56,15 @@ namespace tetradapt::cli
     catch (const core::NumericalError &error)
       {
         return {failure, error.what()};
+      }
+    catch (const std::filesystem::filesystem_error &error)
+      {
+        // Names that are too long, links in a circle, folders that may not be read.
+        const bool is_trouble = error.code() == std::errc::no_space_on_device
+                                || error.code() == std::errc::io_error
+                                || error.code() == std::errc::too_many_files_open;
+        return {is_trouble ? failure : Outcome::bad_input,
+                "'" + error.path1().string() + "': " + error.code().message() + "."};
       }
     catch (const std::bad_alloc &)
       {
@@ -75,6 +88,24 @@ namespace tetradapt::cli
       {
         return {failure, "unexpected failure of an unknown kind"};
       }
+  }
+
+  void
+  require_written(std::ostream &stream)
+  {
+    stream.flush();
+    if (stream)
+      return;
+    // The stream has forgotten the reason: trying again tells it.
+    stream.clear();
+    errno = 0;
+    stream.put('\n').flush();
+    const int reason = errno;
+    stream.setstate(std::ios::badbit);
+    throw core::NumericalError(
+      "Cannot write to the standard output"
+      + (reason == 0 ? "." : std::string(": ") + std::strerror(reason) + ".")
+      + " With --quiet nothing is written there.");
   }
 
   int

@@ -2,7 +2,10 @@
 #include "tetradapt/cli/run_scene.h"
 
 #include "tetradapt/adapt/driver.h"
+#include "tetradapt/cli/outcome.h"
+#include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/on_first_rank.h"
+#include "tetradapt/core/printable.h"
 #include "tetradapt/report/convergence_table.h"
 #include "tetradapt/report/log_sinks.h"
 #include "tetradapt/report/mesh_report.h"
@@ -16,6 +19,9 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <unistd.h>
+
+#include <atomic>
 #include <iostream>
 #include <memory>
 
@@ -32,75 +38,174 @@ namespace tetradapt::cli
       return sink;
     }
 
-    /** What watches a run on the first rank; empty on the others. */
-    class Watchers
+    /** What watches a run on the first rank. As an observer it hands on what it is told to
+     * those that write the results: when the first cycle is done, results of earlier runs
+     * make way, and no interruption falls between files that belong together. */
+    class Watchers : public adapt::Observer
     {
     public:
-      Watchers(const scene::Scene &scene,
-               const std::string  &effective_parameters,
-               const RunOptions   &options,
-               core::Log          &log)
-        : log(log),
+      Watchers(const scene::Scene                   &scene,
+               const std::string                    &effective_parameters,
+               const RunOptions                     &options,
+               const std::vector<adapt::Observer *> &more,
+               core::Log                            &log)
+        : options(options), log(log),
           terminal(std::make_unique<report::TerminalSink>(log, std::cerr, sink_options(options))),
-          directory(scene), log_file(log, directory.file("log.txt"))
+          directory(scene, effective_parameters), log_file(log, directory.log_path()), more(more)
       {
-        directory.write_parameters(effective_parameters);
-        const std::string tables = scene.output.tables ? directory.path() : "";
-        std::ostream     *rows   = options.quiet ? nullptr : &std::cout;
+        if (!directory.files().lock_problem().empty())
+          log.warning("The folder '" + directory.path() + "' cannot be locked ("
+                      + directory.files().lock_problem()
+                      + "): take care that no other run writes to it.");
+        report::ResultFolder *tables = scene.output.tables ? &directory.files() : nullptr;
+        std::ostream         *rows   = options.quiet ? nullptr : &std::cout;
         if (rows != nullptr || scene.output.tables)
           observers.push_back(std::make_unique<report::ConvergenceTable>(tables, rows, log));
         observers.push_back(std::make_unique<report::MeshReport>(tables, log));
         observers.push_back(std::make_unique<report::ResultsSummary>(tables, log));
         if (scene.output.plots)
-          observers.push_back(std::make_unique<report::RunPlots>(directory.path(), log));
+          observers.push_back(std::make_unique<report::RunPlots>(directory.files(), log));
         if (scene.output.size_field)
-          observers.push_back(std::make_unique<report::SizeFieldFile>(directory.path()));
+          observers.push_back(std::make_unique<report::SizeFieldFile>(directory.files()));
         if (scene.output.vtu)
           observers.push_back(
-            std::make_unique<report::VtuSeries>(directory.path(), scene.output.stress));
+            std::make_unique<report::VtuSeries>(directory.files(), scene.output.stress));
+        if (options.interrupts != nullptr)
+          options.interrupts->set_action([this](const int signal) { end_at_once(signal); });
       }
 
-      std::vector<adapt::Observer *>
-      list() const
+      ~Watchers() override
       {
-        std::vector<adapt::Observer *> pointers;
-        for (const auto &observer : observers)
-          pointers.push_back(observer.get());
-        return pointers;
+        if (options.interrupts != nullptr)
+          options.interrupts->set_action({});
+        close_anyhow(); // if nobody did: a library threw something that is no exception
       }
 
-      /** Puts an error in log.txt; the terminal gets it from the caller. */
       void
-      log_failure(const std::string &message)
+      run_started(const scene::Scene &scene) override
       {
+        tell([&](adapt::Observer &observer) { observer.run_started(scene); });
+      }
+
+      void
+      cycle_done(const adapt::CycleEvent &event) override
+      {
+        const auto whole = uninterrupted();
+        directory.begin();
+        tell([&](adapt::Observer &observer) { observer.cycle_done(event); });
+        n_cycles = event.record.cycle + 1;
+        check_output();
+      }
+
+      void
+      run_done(const std::string &reason) override
+      {
+        const auto whole = uninterrupted();
+        tell([&](adapt::Observer &observer) { observer.run_done(reason); });
+      }
+
+      /** Puts an error in the log and closes it; the terminal gets the error from the
+       * caller. */
+      void
+      fail(const std::string &message)
+      {
+        const auto        whole = uninterrupted();
+        const std::string kept  = directory.kept_results();
+        if (!kept.empty())
+          log.info(kept);
         terminal.reset();
         log.error(message);
+        close_anyhow();
       }
 
+      /** Closes the log and tells what there is to look at. */
       void
-      close_log()
+      finish()
       {
-        log_file.close();
-      }
-
-      std::string
-      files_to_look_at() const
-      {
-        return directory.files_to_look_at();
-      }
-
-      std::string
-      files_in_short() const
-      {
-        return directory.files_in_short();
+        {
+          const auto whole = uninterrupted();
+          close();
+        }
+        log.detail(directory.files_to_look_at());
+        log.info(directory.files_in_short());
+        check_output();
       }
 
     private:
+      std::unique_lock<std::timed_mutex>
+      uninterrupted() const
+      {
+        return options.interrupts == nullptr ? std::unique_lock<std::timed_mutex>()
+                                             : options.interrupts->defer();
+      }
+
+      template <typename Action>
+      void
+      tell(const Action &action)
+      {
+        for (const auto &observer : observers)
+          action(*observer);
+        for (adapt::Observer *observer : more)
+          action(*observer);
+      }
+
+      void
+      check_output()
+      {
+        log_file.check();
+        if (!options.quiet)
+          require_written(std::cout);
+        if (!std::cerr)
+          throw core::NumericalError("Cannot write to the standard error output.");
+      }
+
+      /** What was the matter before is the error to tell. */
+      void
+      close_anyhow()
+      {
+        try
+          {
+            close();
+          }
+        catch (const std::exception &)
+          {
+          }
+      }
+
+      void
+      close()
+      {
+        directory.end();
+        log_file.close();
+        directory.files().finish();
+      }
+
+      /** Runs in a thread of its own when a signal ends the program. */
+      void
+      end_at_once(const int signal)
+      {
+        const std::string kept = directory.kept_results();
+        const std::string text
+          = "Ended by " + core::InterruptWatcher::signal_name(signal) + " after "
+            + std::to_string(n_cycles) + (n_cycles == 1 ? " cycle. " : " cycles. ")
+            + (kept.empty() ? "What there is lies in '" + directory.path() + "'." : kept + ".");
+        log_file.close_with(text);
+        directory.files().remove_temporaries();
+        directory.end();
+        const std::string line = (sink_options(options).is_terminal ? "\r\033[K" : "")
+                                 + core::printable("error: " + text) + "\n";
+        if (::write(STDERR_FILENO, line.data(), line.size()) < 0)
+          return; // nobody is there to be told
+      }
+
+      const RunOptions                              options;
       core::Log                                    &log;
       std::unique_ptr<report::TerminalSink>         terminal;
       report::OutputDirectory                       directory;
       report::LogFile                               log_file;
       std::vector<std::unique_ptr<adapt::Observer>> observers;
+      std::vector<adapt::Observer *>                more;
+      std::atomic<unsigned int>                     n_cycles{0};
     };
 
     void
@@ -133,32 +238,26 @@ namespace tetradapt::cli
     std::unique_ptr<Watchers> watchers;
     const bool                first = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
     core::on_first_rank(communicator, [&]() {
-      watchers = std::make_unique<Watchers>(scene, effective_parameters, options, log);
+      watchers = std::make_unique<Watchers>(scene, effective_parameters, options, more, log);
     });
     announce_start(scene, plan, options, communicator, log);
     try
       {
         std::vector<adapt::Observer *> observers;
         if (first)
-          {
-            observers = watchers->list();
-            observers.insert(observers.end(), more.begin(), more.end());
-          }
+          observers.push_back(watchers.get());
         adapt::Driver(scene, plan, communicator, log, timer, observers, report::mesh_line).run();
+        log.detail(timer.table());
+        core::on_first_rank(communicator, [&]() { watchers->finish(); });
       }
     catch (const std::exception &error)
       {
-        // For log.txt; the caller prints it on the terminal.
+        // It may have failed because a child process got the signal also.
+        if (options.interrupts != nullptr)
+          options.interrupts->wait_if_ending();
         if (first)
-          watchers->log_failure(scene.with_place(error.what()));
+          watchers->fail(scene.with_place(error.what()));
         throw;
-      }
-    log.detail(timer.table());
-    if (first)
-      {
-        watchers->close_log();
-        log.detail(watchers->files_to_look_at());
-        log.info(watchers->files_in_short());
       }
   }
 } // namespace tetradapt::cli

@@ -3,9 +3,9 @@
 
 #include "tetradapt/cli/check_inputs.h"
 #include "tetradapt/cli/outcome.h"
-#include "tetradapt/core/atomic_file.h"
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/on_first_rank.h"
+#include "tetradapt/core/printable.h"
 #include "tetradapt/report/log_sinks.h"
 #include "tetradapt/report/output_directory.h"
 #include "tetradapt/report/plots.h"
@@ -13,7 +13,9 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <iostream>
+#include <memory>
 #include <set>
 
 namespace tetradapt::cli
@@ -87,16 +89,56 @@ namespace tetradapt::cli
       return result;
     }
 
+    bool
+    has_records(const std::vector<StudyOutcome> &outcomes)
+    {
+      return std::any_of(outcomes.begin(), outcomes.end(), [](const StudyOutcome &outcome) {
+        return !outcome.records.empty();
+      });
+    }
+
+    /** Results of an earlier study make way when this one has a cycle to show. */
     void
     write_tables(const scene::Scene              &study,
-                 const std::string               &directory,
+                 report::OutputDirectory         &directory,
                  const std::vector<StudyRun>     &runs,
                  const std::vector<StudyOutcome> &outcomes)
     {
+      if (!has_records(outcomes))
+        return;
+      directory.begin();
       if (!study.output.tables)
         return;
-      core::write_file(directory + "/study.csv", csv_study(study, runs, outcomes));
-      core::write_file(directory + "/study.txt", text_study(runs, outcomes));
+      directory.files().write("study.csv", csv_study(study, runs, outcomes));
+      directory.files().write("study.txt", text_study(runs, outcomes));
+    }
+
+    void
+    finish(const scene::Scene              &study,
+           report::OutputDirectory         &directory,
+           const RunOptions                &options,
+           const std::vector<StudyRun>     &runs,
+           const std::vector<StudyOutcome> &outcomes)
+    {
+      core::Log                  log;
+      const report::TerminalSink terminal(log,
+                                          std::cerr,
+                                          report::TerminalSink::stderr_options(options.quiet));
+      if (!options.quiet)
+        {
+          std::cout << "\n" << text_study(runs, outcomes, 80) << std::flush;
+          require_written(std::cout);
+        }
+      if (!has_records(outcomes))
+        return;
+      if (study.output.plots)
+        report::draw_study(directory.files(),
+                           study.title.empty() ? study.name : study.title,
+                           plotted(runs, outcomes),
+                           plot_key(study),
+                           log);
+      directory.end();
+      log.info(report::OutputDirectory::study_files_in_short(directory.path()));
     }
   } // namespace
 
@@ -124,16 +166,15 @@ namespace tetradapt::cli
             MPI_Comm                     communicator,
             MPI_Comm                     control)
   {
-    std::string directory;
+    std::unique_ptr<report::OutputDirectory> directory; // on the first rank
     core::on_first_rank(communicator, [&] {
       check_study_inputs(study, runs);
-      const report::OutputDirectory     folder(study);
       std::vector<const scene::Scene *> scenes;
       for (const StudyRun &run : runs)
         scenes.push_back(&run.scene);
-      folder.remove_other_runs(scenes);
-      folder.write_parameters(scene::effective_parameters(study));
-      directory = folder.path();
+      directory = std::make_unique<report::OutputDirectory>(study,
+                                                            scene::effective_parameters(study),
+                                                            scenes);
     });
     const bool first  = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
     const bool spoken = first && !options.quiet;
@@ -147,7 +188,7 @@ namespace tetradapt::cli
       {
         if (spoken)
           std::cout << (i == 0 ? "" : "\n") << "Run " << i + 1 << " of " << runs.size() << ": "
-                    << runs[i].label << std::endl;
+                    << core::printable(runs[i].label) << std::endl;
         RecordKeeper keeper(outcomes[i].records);
         Outcome      outcome = attempt([&] {
           run_scene(runs[i].scene,
@@ -163,23 +204,9 @@ namespace tetradapt::cli
         outcomes[i].is_done   = true;
         outcomes[i].is_failed = code != Outcome::done;
         worst                 = std::max(worst, code);
-        core::on_first_rank(communicator, [&] { write_tables(study, directory, runs, outcomes); });
+        core::on_first_rank(communicator, [&] { write_tables(study, *directory, runs, outcomes); });
       }
-    core::on_first_rank(communicator, [&] {
-      core::Log                  log;
-      const report::TerminalSink terminal(log,
-                                          std::cerr,
-                                          report::TerminalSink::stderr_options(options.quiet));
-      if (spoken)
-        std::cout << "\n" << text_study(runs, outcomes, 80) << std::flush;
-      if (study.output.plots)
-        report::draw_study(directory,
-                           study.title.empty() ? study.name : study.title,
-                           plotted(runs, outcomes),
-                           plot_key(study),
-                           log);
-      log.info(report::OutputDirectory::study_files_in_short(directory));
-    });
+    core::on_first_rank(communicator, [&] { finish(study, *directory, options, runs, outcomes); });
     return worst;
   }
 } // namespace tetradapt::cli

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/cli/study_tables.h"
 
+#include "tetradapt/core/printable.h"
 #include "tetradapt/report/convergence_table.h"
 #include "tetradapt/report/plots.h"
 #include "tetradapt/report/record_columns.h"
@@ -149,6 +150,6 @@ namespace tetradapt::cli
       }
     if (most_characters > 0)
       make_narrower(most_characters, rows);
-    return report::aligned_table(rows, 2);
+    return core::printable(report::aligned_table(rows, 2));
   }
 } // namespace tetradapt::cli

@@ -3,7 +3,6 @@
 
 #include "tetradapt/core/exceptions.h"
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -17,12 +16,22 @@ namespace tetradapt::core
 
   namespace
   {
-    /** Creates an empty file that did not exist. The process number keeps two
-     * programs apart, the attempt what a killed one has left. open() and not
-     * mkstemp(), so that the user's umask decides on the permissions. */
-    std::string
-    create_temporary(const fs::path &target, const std::string &name)
+    [[noreturn]] void
+    fail_to_create(const std::string &name, const std::string &directory, const int error)
     {
+      const std::string text = "Cannot write the file '" + name + "': " + std::strerror(error);
+      if (error == ENOSPC || error == EDQUOT || error == EIO || error == EMFILE || error == ENFILE)
+        throw NumericalError(text + ". Make room on the disk or choose another output directory.");
+      throw InputError(text + ". Make sure that the folder '" + directory
+                       + "' exists and may be written to.");
+    }
+
+    /** Creates an empty file that did not exist and returns its name. The process number
+     * keeps two programs apart, the attempt what a killed one has left. */
+    std::string
+    create_temporary(DescriptorBuffer &buffer, const std::string &name)
+    {
+      const fs::path target(name);
       const fs::path directory = target.has_parent_path() ? target.parent_path() : fs::path(".");
       for (unsigned int attempt = 0; attempt < 1000; ++attempt)
         {
@@ -31,17 +40,11 @@ namespace tetradapt::core
                / ("." + target.filename().string() + "." + std::to_string(::getpid()) + "."
                   + std::to_string(attempt) + ".tmp"))
                 .string();
-          const int descriptor
-            = ::open(candidate.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-          if (descriptor >= 0)
-            {
-              ::close(descriptor);
-              return candidate;
-            }
-          if (errno != EEXIST)
-            throw InputError("Cannot write the file '" + name + "': " + std::strerror(errno)
-                             + ". Make sure that the folder '" + directory.string()
-                             + "' exists and may be written to.");
+          const int error = buffer.create(candidate);
+          if (error == 0)
+            return candidate;
+          if (error != EEXIST)
+            fail_to_create(name, directory.string(), error);
         }
       throw InputError("Cannot write the file '" + name
                        + "': the folder holds too many temporary files of it; remove '."
@@ -49,37 +52,25 @@ namespace tetradapt::core
     }
   } // namespace
 
-  AtomicFile::AtomicFile(const std::string &path) : name(path)
+  AtomicFile::AtomicFile(const std::string &path) : name(path), out(&buffer)
   {
     std::error_code error;
-    const auto      status = fs::status(path, error);
+    const auto      status = fs::symlink_status(path, error);
     if (path.empty() || fs::is_directory(status))
       throw InputError("Cannot write the file '" + name
                        + "': " + (path.empty() ? "the name is empty." : "a folder has this name."));
     // Renaming over a device would replace it by a plain file.
-    if (fs::exists(status) && !fs::is_regular_file(status))
+    if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_symlink(status))
       throw InputError("Cannot write the file '" + name
                        + "': it exists and is not a regular file.");
-
-    target = fs::exists(status) ? fs::canonical(path, error).string() : path;
-    if (error || target.empty())
-      target = path;
-    temporary = create_temporary(target, name);
-    errno     = 0;
-    out.open(temporary, std::ios::binary | std::ios::trunc);
-    if (!out)
-      {
-        const int reason = errno;
-        ::unlink(temporary.c_str());
-        throw InputError("Cannot write the file '" + name + "': " + std::strerror(reason) + ".");
-      }
+    temporary = create_temporary(buffer, name);
   }
 
   AtomicFile::~AtomicFile()
   {
     if (!temporary.empty())
       {
-        out.close();
+        buffer.close();
         ::unlink(temporary.c_str());
       }
   }
@@ -87,11 +78,11 @@ namespace tetradapt::core
   void
   AtomicFile::fail(const std::string &what, const int error_number)
   {
-    out.close();
+    buffer.close();
     ::unlink(temporary.c_str());
     temporary.clear();
-    throw NumericalError("Cannot " + what + " the file '" + name + "': "
-                         + (error_number != 0 ? std::strerror(error_number) : "a write failed")
+    throw NumericalError("Cannot " + what + " the file '" + name
+                         + "': " + std::strerror(error_number)
                          + ". Make room on the disk or choose another output directory.");
   }
 
@@ -100,38 +91,13 @@ namespace tetradapt::core
   {
     if (temporary.empty())
       return;
-    errno = 0;
-    out.flush();
-    if (!out)
-      {
-        // A write that failed earlier has left no reason behind: trying again
-        // tells it (the stream itself refuses to once it has failed).
-        int reason = errno;
-        if (reason == 0)
-          {
-            out.clear();
-            out.put('\n').flush();
-            reason = errno;
-          }
-        fail("write", reason);
-      }
-    errno = 0;
-    out.close();
-    if (!out)
-      fail("write", errno);
-    if (sync)
-      {
-        const int descriptor = ::open(temporary.c_str(), O_RDONLY | O_CLOEXEC);
-        if (descriptor < 0 || ::fsync(descriptor) != 0)
-          {
-            const int reason = errno;
-            if (descriptor >= 0)
-              ::close(descriptor);
-            fail("write", reason);
-          }
-        ::close(descriptor);
-      }
-    if (std::rename(temporary.c_str(), target.c_str()) != 0)
+    if (sync && buffer.sync_to_disk() != 0)
+      fail("write", buffer.error());
+    if (buffer.close() != 0)
+      fail("write", buffer.error());
+    if (!out) // somebody set the stream's state
+      fail("write", EIO);
+    if (std::rename(temporary.c_str(), name.c_str()) != 0)
       fail("rename", errno);
     temporary.clear();
   }

@@ -4,6 +4,7 @@
 #include "tetradapt/core/exceptions.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 
 namespace tetradapt::core
@@ -30,6 +31,12 @@ namespace tetradapt::core
         {
           message = error.what();
           return input_error;
+        }
+      catch (const std::filesystem::filesystem_error &error)
+        {
+          // As where there is one rank only.
+          message = "'" + error.path1().string() + "': " + error.code().message() + ".";
+          return error.code() == std::errc::no_space_on_device ? numerical_error : input_error;
         }
       catch (const std::bad_alloc &)
         {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/report/convergence_table.h"
 
-#include "tetradapt/core/atomic_file.h"
+#include "tetradapt/core/printable.h"
 
 #include <algorithm>
 #include <ostream>
@@ -58,7 +58,7 @@ namespace tetradapt::report
   {
     std::string line;
     for (const RecordColumn &column : columns)
-      line += (line.empty() ? "" : ",") + column.name;
+      line += (line.empty() ? "" : ",") + csv_text(column.name);
     return line;
   }
 
@@ -115,10 +115,10 @@ namespace tetradapt::report
     return line;
   }
 
-  ConvergenceTable::ConvergenceTable(const std::string &directory,
-                                     std::ostream      *terminal,
-                                     const core::Log   &log)
-    : directory(directory), terminal(terminal), log(log)
+  ConvergenceTable::ConvergenceTable(ResultFolder    *folder,
+                                     std::ostream    *terminal,
+                                     const core::Log &log)
+    : folder(folder), terminal(terminal), log(log)
   {
   }
 
@@ -142,17 +142,17 @@ namespace tetradapt::report
         const std::string new_heading = terminal_heading(columns);
         if (new_heading != heading || rows_below_heading == rows_a_heading)
           {
-            *terminal << new_heading << '\n';
+            *terminal << core::printable(new_heading) << '\n';
             rows_below_heading = 0;
           }
         ++rows_below_heading;
         heading = new_heading;
         *terminal << terminal_row(columns, rows.back()) << std::endl;
       }
-    if (!directory.empty())
+    if (folder != nullptr)
       {
-        core::write_file(directory + "/convergence.csv", csv_table(rows));
-        core::write_file(directory + "/convergence.txt", text_table(rows));
+        folder->write("convergence.csv", csv_table(rows));
+        folder->write("convergence.txt", text_table(rows));
       }
   }
 } // namespace tetradapt::report

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/report/gnuplot.h"
 
-#include "tetradapt/core/atomic_file.h"
 #include "tetradapt/core/child_process.h"
 #include "tetradapt/core/exceptions.h"
 
@@ -62,7 +61,10 @@ namespace tetradapt::report
     std::istringstream folders(path);
     for (std::string folder; std::getline(folders, folder, ':');)
       {
-        const std::string file = (folder.empty() ? "." : folder) + "/gnuplot";
+        // An empty entry means the working directory, where anybody may have put a program.
+        if (folder.empty())
+          continue;
+        const std::string file = folder + "/gnuplot";
         std::error_code   error;
         if (fs::is_regular_file(file, error) && access(file.c_str(), X_OK) == 0)
           return file;
@@ -70,7 +72,7 @@ namespace tetradapt::report
     return "";
   }
 
-  PictureFolder::PictureFolder(const std::string &folder, const core::Log &log)
+  PictureFolder::PictureFolder(ResultFolder &folder, const core::Log &log)
     : folder(folder), log(log), program(find_gnuplot())
   {
   }
@@ -80,9 +82,7 @@ namespace tetradapt::report
   {
     if (script.empty())
       return;
-    std::error_code error;
-    fs::create_directories(folder, error); // what is wrong, the file below says
-    core::write_file(folder + "/" + name + ".gp", script);
+    folder.write("plots/" + name + ".gp", script);
     waiting.push_back({name, script});
   }
 
@@ -108,7 +108,7 @@ namespace tetradapt::report
         || drawn.size() != pictures.size())
       return first_words(result.errors);
     for (std::size_t i = 0; i < drawn.size(); ++i)
-      core::write_file(folder + "/" + pictures[i].name + ".svg", drawn[i]);
+      folder.write("plots/" + pictures[i].name + ".svg", drawn[i]);
     return std::nullopt;
   }
 
@@ -122,7 +122,7 @@ namespace tetradapt::report
     if (program.empty())
       {
         if (!missing_was_said)
-          log.warning("Output/Plots: gnuplot is missing, so that " + folder
+          log.warning("Output/Plots: gnuplot is missing, so that " + folder.file("plots")
                       + " has its scripts only. Install Debian's gnuplot-nox, then: gnuplot -d "
                         "NAME.gp > NAME.svg");
         missing_was_said = true;

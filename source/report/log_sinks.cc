@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/report/log_sinks.h"
 
+#include "tetradapt/core/exceptions.h"
+#include "tetradapt/core/printable.h"
+
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
+#include <cstring>
 #include <ostream>
 
 namespace tetradapt::report
@@ -93,6 +96,28 @@ namespace tetradapt::report
       std::snprintf(text, sizeof text, "[%.1f s] ", seconds);
       return text;
     }
+    /** A message as it stands in a log file. */
+    std::string
+    entry(const core::LogLevel                        level,
+          const std::string                          &text,
+          const std::chrono::steady_clock::time_point start)
+    {
+      char time[40];
+      std::snprintf(
+        time,
+        sizeof time,
+        "[%10.3f s] ",
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+      // Lines of a table stay below each other.
+      std::string aligned;
+      for (const char c : core::printable(text))
+        {
+          aligned += c;
+          if (c == '\n')
+            aligned += "               ";
+        }
+      return time + (label(level) + aligned) + "\n";
+    }
   } // namespace
 
   TerminalSink::TerminalSink(core::Log &log, std::ostream &stream, const Options &options)
@@ -131,7 +156,7 @@ namespace tetradapt::report
     else if (is_shown(level))
       {
         clear_progress();
-        const std::string whole     = label(level) + text;
+        const std::string whole     = label(level) + core::printable(text);
         const bool        is_broken = level == core::LogLevel::info || options.is_terminal;
         stream << (is_broken ? broken(whole, std::min(80u, options.width)) : whole) << std::endl;
       }
@@ -163,7 +188,8 @@ namespace tetradapt::report
     // The last column stays free: some terminals wrap when it is written to.
     const std::string time
       = options.show_time ? seconds_text(std::chrono::duration<double>(now - start).count()) : "";
-    stream << "\r\033[K" << one_line(time + text, options.width > 1 ? options.width - 1 : 1)
+    stream << "\r\033[K"
+           << one_line(time + core::printable(text), options.width > 1 ? options.width - 1 : 1)
            << std::flush;
     progress_is_shown = true;
     last_stage        = stage;
@@ -179,32 +205,55 @@ namespace tetradapt::report
   }
 
   LogFile::LogFile(core::Log &log, const std::string &path)
-    : log(log), file(path), start(std::chrono::steady_clock::now()),
+    : log(log), path(path), start(std::chrono::steady_clock::now()),
       number(log.add_sink(
         [this](const core::LogLevel level, const std::string &text) { write(level, text); }))
   {
+    const int error = buffer.create(path);
+    if (error == 0)
+      return;
+    log.remove_sink(number);
+    throw core::InputError("Cannot write the file '" + path + "': " + std::strerror(error)
+                           + ". Make room there, or choose another output directory.");
   }
 
   LogFile::~LogFile()
   {
-    try
-      {
-        close();
-      }
-    catch (const std::exception &)
-      {
-        // A destructor has nobody to tell; close() is for those who ask.
-      }
+    if (!closed)
+      log.remove_sink(number);
+  }
+
+  void
+  LogFile::check()
+  {
+    if (buffer.error() != 0)
+      throw core::NumericalError("Cannot write the file '" + path
+                                 + "': " + std::strerror(buffer.error())
+                                 + ". Make room on the disk or choose another output directory.");
   }
 
   void
   LogFile::close()
   {
-    if (closed)
+    if (!closed)
+      {
+        const std::lock_guard<std::timed_mutex> guard(mutex);
+        closed = true;
+        log.remove_sink(number);
+        buffer.close();
+      }
+    check();
+  }
+
+  void
+  LogFile::close_with(const std::string &text)
+  {
+    const std::unique_lock<std::timed_mutex> lock(mutex, std::chrono::milliseconds(100));
+    if (!lock || closed)
       return;
-    closed = true;
-    log.remove_sink(number);
-    file.commit();
+    const std::string line = entry(core::LogLevel::error, text, start);
+    buffer.sputn(line.data(), line.size());
+    buffer.close();
   }
 
   void
@@ -212,19 +261,9 @@ namespace tetradapt::report
   {
     if (level == core::LogLevel::progress)
       return;
-    char time[40];
-    std::snprintf(time,
-                  sizeof time,
-                  "[%10.3f s] ",
-                  std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-    // Lines of a table stay below each other.
-    std::string aligned;
-    for (const char c : text)
-      {
-        aligned += c;
-        if (c == '\n')
-          aligned += "               ";
-      }
-    file.stream() << time << label(level) << aligned << std::endl;
+    const std::string                       line = entry(level, text, start);
+    const std::lock_guard<std::timed_mutex> guard(mutex);
+    buffer.sputn(line.data(), line.size());
+    buffer.pubsync();
   }
 } // namespace tetradapt::report

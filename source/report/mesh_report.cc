@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/report/mesh_report.h"
 
-#include "tetradapt/core/atomic_file.h"
 #include "tetradapt/report/record_columns.h"
 
 #include <cmath>
@@ -124,8 +123,7 @@ namespace tetradapt::report
     return text;
   }
 
-  MeshReport::MeshReport(const std::string &directory, const core::Log &log)
-    : directory(directory), log(log)
+  MeshReport::MeshReport(ResultFolder *folder, const core::Log &log) : folder(folder), log(log)
   {
   }
 
@@ -142,7 +140,7 @@ namespace tetradapt::report
       return;
     records.push_back(event.record);
     log.detail(describe_mesh_record(event.record));
-    if (!directory.empty())
-      core::write_file(directory + "/mesh.csv", csv_meshes(records));
+    if (folder != nullptr)
+      folder->write("mesh.csv", csv_meshes(records));
   }
 } // namespace tetradapt::report

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/report/output_directory.h"
 
-#include "tetradapt/core/atomic_file.h"
 #include "tetradapt/core/exceptions.h"
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <vector>
 
 namespace tetradapt::report
 {
@@ -36,7 +34,9 @@ namespace tetradapt::report
                                     "mesh.csv",
                                     "size_field.vtu",
                                     "parameters.prm",
-                                    "log.txt"})
+                                    "log.txt",
+                                    "log_new.txt",
+                                    "log_failed.txt"})
         if (name == own)
           return true;
       if (name == scene_name + ".pvd")
@@ -49,8 +49,11 @@ namespace tetradapt::report
 
     /** Whether a run draws a plot of this name. */
     bool
-    is_own_plot(const std::string &name)
+    is_own_plot(const std::string &path)
     {
+      if (path.compare(0, 6, "plots/") != 0)
+        return false;
+      const std::string name = path.substr(6);
       for (const std::string own : {"convergence_dofs",
                                     "convergence_seconds",
                                     "effectivity",
@@ -64,68 +67,55 @@ namespace tetradapt::report
       return false;
     }
 
-    /** The file that @p name is a temporary of (".<file>.<process>.<attempt>.tmp",
-     * as AtomicFile names them), or an empty text. */
-    std::string
-    file_of_temporary(const std::string &name)
+    /** Names of a log that is being written, of one that became a result, and of one of a
+     * run that had no result. */
+    constexpr char new_log[] = "log_new.txt", log[] = "log.txt", failed_log[] = "log_failed.txt";
+    constexpr char input[] = "parameters.prm";
+
+    /** Whether @p name tells about a run without being a result. */
+    bool
+    is_account(const std::string &name)
     {
-      if (name.size() < 6 || name[0] != '.' || name.compare(name.size() - 4, 4, ".tmp") != 0)
-        return "";
-      std::string rest = name.substr(1, name.size() - 5);
-      for (unsigned int i = 0; i < 2; ++i)
-        {
-          const std::size_t dot = rest.rfind('.');
-          if (dot == std::string::npos || !is_number(rest.substr(dot + 1)))
-            return "";
-          rest.resize(dot);
-        }
-      return rest;
+      return name == new_log || name == log || name == failed_log || name == input;
     }
 
-    /** Files that a run of @p scene_name would mix with its own. */
-    std::vector<fs::path>
-    stale_files(const fs::path &directory, const std::string &scene_name)
+    std::vector<std::string>
+    files_read(const scene::Scene &scene)
     {
-      std::vector<fs::path> stale;
-      for (const auto &entry : fs::directory_iterator(directory))
-        {
-          const std::string name = entry.path().filename().string();
-          // parameters.prm is replaced at once, and may be the very scene that runs.
-          if (name == "parameters.prm" || fs::is_directory(entry.symlink_status()))
-            continue;
-          if (is_own_file(name, scene_name) || is_own_file(file_of_temporary(name), scene_name))
-            stale.push_back(entry.path());
-        }
-      if (fs::is_directory(directory / "plots"))
-        for (const auto &entry : fs::directory_iterator(directory / "plots"))
-          {
-            const std::string name = entry.path().filename().string();
-            if (is_own_plot(name) || is_own_plot(file_of_temporary(name)))
-              stale.push_back(entry.path());
-          }
-      return stale;
+      std::vector<std::string> files{scene.mesh.size_field};
+      if (scene.mesh.source == scene::MeshSource::file
+          || scene.mesh.source == scene::MeshSource::surface)
+        files.insert(files.end(), scene.mesh.files.begin(), scene.mesh.files.end());
+      if (scene.reference.type != scene::ReferenceParameters::Type::none)
+        files.push_back(scene.reference.file);
+      return files;
+    }
+
+    /** Whether begin() would remove @p file. */
+    bool
+    is_removed(const std::string &file, const ResultFolder &folder)
+    {
+      std::error_code error;
+      for (const std::string &name : folder.earlier_files())
+        if (fs::equivalent(file, folder.file(name), error))
+          return true;
+      for (const std::string &name : folder.earlier_folders())
+        for (fs::path above = fs::path(file).parent_path(); above.has_relative_path();
+             above          = above.parent_path())
+          if (fs::equivalent(above, folder.file(name), error))
+            return true;
+      return false;
     }
 
     void
-    check_not_read(const scene::Scene &scene, const std::vector<fs::path> &stale)
+    check_not_read(const scene::Scene &scene, const ResultFolder &folder)
     {
-      std::vector<std::string> inputs;
-      if (scene.mesh.source == scene::MeshSource::file
-          || scene.mesh.source == scene::MeshSource::surface)
-        inputs = scene.mesh.files;
-      if (scene.reference.type != scene::ReferenceParameters::Type::none)
-        inputs.push_back(scene.reference.file);
-      inputs.push_back(scene.mesh.size_field);
-      for (const std::string &input : inputs)
-        for (const fs::path &path : stale)
-          {
-            std::error_code error;
-            if (!input.empty() && fs::equivalent(input, path, error))
-              throw core::InputError("The scene '" + scene.file + "' reads the file '" + input
-                                     + "', which lies in its own output directory and would be "
-                                       "overwritten. Move that file or set another directory in "
-                                       "Output.");
-          }
+      for (const std::string &file : files_read(scene))
+        if (!file.empty() && is_removed(file, folder))
+          throw core::InputError("The scene '" + scene.file + "' reads the file '" + file
+                                 + "', which lies in its own output directory and would be "
+                                   "overwritten. Move that file or set another directory in "
+                                   "Output.");
     }
   } // namespace
 
@@ -135,79 +125,58 @@ namespace tetradapt::report
     return scene.output.directory.empty() ? "output/" + scene.name : scene.output.directory;
   }
 
-  OutputDirectory::OutputDirectory(const scene::Scene &scene)
-    : directory(path_of(scene)), scene_name(scene.name)
+  OutputDirectory::OutputDirectory(const scene::Scene                      &scene,
+                                   const std::string                       &parameters,
+                                   const std::vector<const scene::Scene *> &runs)
+    : folder(path_of(scene)), scene_name(scene.name), parameters(parameters)
   {
-    std::error_code error;
-    fs::create_directories(directory, error);
-    if (!error && !fs::is_directory(directory))
-      error = std::make_error_code(std::errc::not_a_directory);
-    if (error)
-      throw core::InputError("Cannot make the output directory '" + directory
-                             + "': " + error.message() + ". Choose another one in Output.");
-    try
-      {
-        // Never committed: nothing but a test whether files can be made here.
-        {
-          core::AtomicFile probe(file("log.txt"));
-        }
-        const auto stale = stale_files(directory, scene_name);
-        check_not_read(scene, stale);
-        for (const fs::path &path : stale)
-          fs::remove(path);
-      }
-    catch (const fs::filesystem_error &e)
-      {
-        throw core::InputError("Cannot clear the output directory '" + directory
-                               + "' of an earlier run's files: " + e.code().message()
-                               + ". Choose another one in Output.");
-      }
-  }
-
-  void
-  OutputDirectory::remove_other_runs(const std::vector<const scene::Scene *> &runs) const
-  {
-    std::vector<std::string> names;
+    folder.check_free(
+      [&](const std::string &name) { return is_own_file(name, scene_name) || is_own_plot(name); });
     for (const scene::Scene *run : runs)
-      names.push_back(fs::path(path_of(*run)).filename().string());
-    try
-      {
-        std::vector<fs::path> folders;
-        for (const auto &entry : fs::directory_iterator(directory))
-          {
-            const std::string name = entry.path().filename().string();
-            if (fs::is_directory(entry.symlink_status())
-                && is_number(name.substr(0, name.find('-'))) && name.find('-') != std::string::npos
-                && fs::exists(entry.path() / "parameters.prm")
-                && fs::exists(entry.path() / "log.txt")
-                && std::find(names.begin(), names.end(), name) == names.end())
-              folders.push_back(entry.path());
-          }
-        for (const fs::path &folder : folders)
-          {
-            std::vector<fs::path> stale = stale_files(folder, scene_name);
-            stale.push_back(folder / "parameters.prm");
-            for (const scene::Scene *run : runs)
-              check_not_read(*run, stale);
-            for (const fs::path &path : stale)
-              fs::remove(path);
-            for (const fs::path &path : {folder / "plots", folder})
-              if (fs::is_directory(path) && fs::is_empty(path))
-                fs::remove(path);
-          }
-      }
-    catch (const fs::filesystem_error &e)
-      {
-        throw core::InputError("Cannot clear the output directory '" + directory
-                               + "' of an earlier study's runs: " + e.code().message()
-                               + ". Choose another one in Output.");
-      }
+      folder.add_folder(fs::path(path_of(*run)).filename().string());
+    check_not_read(scene, folder);
+    for (const scene::Scene *run : runs)
+      check_not_read(*run, folder);
+    const auto earlier = folder.earlier_files();
+    if (folder.earlier_folders().empty() && std::all_of(earlier.begin(), earlier.end(), is_account))
+      begin();
+  }
+
+  std::string
+  OutputDirectory::log_path()
+  {
+    log_name = folder.has_begun() ? log : new_log;
+    folder.discard(log_name); // of a run that was killed
+    return folder.prepare(log_name);
   }
 
   void
-  OutputDirectory::write_parameters(const std::string &content) const
+  OutputDirectory::begin()
   {
-    core::write_file(file("parameters.prm"), content);
+    if (folder.has_begun())
+      return;
+    folder.begin();
+    if (!log_name.empty() && folder.rename(log_name, log))
+      log_name = log;
+    folder.write(input, parameters);
+    for (const std::string &name : folder.earlier_folders())
+      folder.remove_folder(name);
+  }
+
+  void
+  OutputDirectory::end()
+  {
+    if (!folder.has_begun() && !log_name.empty() && folder.rename(log_name, failed_log))
+      log_name = failed_log;
+    folder.finish();
+  }
+
+  std::string
+  OutputDirectory::kept_results() const
+  {
+    return folder.has_begun() ? ""
+                              : "The results of an earlier run in '" + folder.path()
+                                  + "' are kept; the log of this one is " + folder.file(failed_log);
   }
 
   namespace
@@ -237,9 +206,7 @@ namespace tetradapt::report
                                       candidates.end(),
                                       [&](const auto &file) {
                                         std::error_code error;
-                                        // log.txt gets its name when the run is over.
-                                        return file.first != "log.txt"
-                                               && !fs::exists(directory + "/" + file.first, error);
+                                        return !fs::exists(directory + "/" + file.first, error);
                                       }),
                        candidates.end());
       return candidates;
@@ -258,14 +225,14 @@ namespace tetradapt::report
   std::string
   OutputDirectory::files_to_look_at() const
   {
-    const Files files = existing(directory, files_of_run(scene_name));
+    const Files files = existing(folder.path(), files_of_run(scene_name));
     std::size_t width = 0;
     for (const auto &file : files)
-      width = std::max(width, directory.size() + 1 + file.first.size());
+      width = std::max(width, folder.path().size() + 1 + file.first.size());
     std::string text = "Files to look at:";
     for (const auto &[name, what] : files)
       {
-        const std::string file = directory + "/" + name;
+        const std::string file = folder.path() + "/" + name;
         text += "\n  " + file + std::string(width - file.size() + 2, ' ') + what;
       }
     return text;
@@ -274,7 +241,7 @@ namespace tetradapt::report
   std::string
   OutputDirectory::files_in_short() const
   {
-    return in_short(directory, existing(directory, files_of_run(scene_name)));
+    return in_short(folder.path(), existing(folder.path(), files_of_run(scene_name)));
   }
 
   std::string

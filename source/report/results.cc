@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/report/results.h"
 
-#include "tetradapt/core/atomic_file.h"
 #include "tetradapt/report/record_columns.h"
 
 #include <algorithm>
@@ -114,8 +113,8 @@ namespace tetradapt::report
     return aligned_table(rows, 1);
   }
 
-  ResultsSummary::ResultsSummary(const std::string &directory, const core::Log &log)
-    : directory(directory), log(log)
+  ResultsSummary::ResultsSummary(ResultFolder *folder, const core::Log &log)
+    : folder(folder), log(log)
   {
   }
 
@@ -142,10 +141,10 @@ namespace tetradapt::report
     const std::string table = text_results(results);
     log.info("Results of cycle " + std::to_string(last->cycle) + ":\n"
              + table.substr(0, table.size() - 1));
-    if (!directory.empty())
+    if (folder != nullptr)
       {
-        core::write_file(directory + "/results.csv", csv_results(results));
-        core::write_file(directory + "/results.txt", table);
+        folder->write("results.csv", csv_results(results));
+        folder->write("results.txt", table);
       }
   }
 } // namespace tetradapt::report

@@ -32,8 +32,7 @@ namespace tetradapt::report
     return counts;
   }
 
-  RunPlots::RunPlots(const std::string &directory, const core::Log &log)
-    : directory(directory), log(log)
+  RunPlots::RunPlots(ResultFolder &folder, const core::Log &log) : folder(folder), log(log)
   {
   }
 
@@ -90,15 +89,15 @@ namespace tetradapt::report
   void
   RunPlots::run_done(const std::string &)
   {
-    PictureFolder folder(directory + "/plots", log);
+    PictureFolder pictures(folder, log);
     for (const NamedPlot &plot : plots_of_run(scene, records))
-      folder.add(plot.name, plot.script);
-    folder.add("indicators", gnuplot_script(indicator_plot()));
-    folder.draw();
+      pictures.add(plot.name, plot.script);
+    pictures.add("indicators", gnuplot_script(indicator_plot()));
+    pictures.draw();
   }
 
   void
-  draw_study(const std::string             &directory,
+  draw_study(ResultFolder                  &folder,
              const std::string             &title,
              const std::vector<PlottedRun> &runs,
              const std::string             &key,
@@ -109,9 +108,9 @@ namespace tetradapt::report
     if (runs.size() > most)
       log.info("The plots show the first " + std::to_string(most) + " of "
                + std::to_string(runs.size()) + " runs.");
-    PictureFolder folder(directory + "/plots", log);
+    PictureFolder pictures(folder, log);
     for (const NamedPlot &plot : plots_of_study(title, drawn, key))
-      folder.add(plot.name, plot.script);
-    folder.draw();
+      pictures.add(plot.name, plot.script);
+    pictures.draw();
   }
 } // namespace tetradapt::report

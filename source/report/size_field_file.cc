@@ -5,7 +5,7 @@
 
 namespace tetradapt::report
 {
-  SizeFieldFile::SizeFieldFile(const std::string &directory) : directory(directory)
+  SizeFieldFile::SizeFieldFile(ResultFolder &folder) : folder(folder)
   {
   }
 
@@ -17,6 +17,6 @@ namespace tetradapt::report
     mesh::VtuWriter writer(event.displacement.mesh());
     writer.add_point_data("size", 1, *event.node_sizes);
     writer.add_regions();
-    writer.write(directory + "/size_field.vtu");
+    writer.write(folder.prepare("size_field.vtu"));
   }
 } // namespace tetradapt::report

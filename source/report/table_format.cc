@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/core/printable.h"
 #include "tetradapt/report/record_columns.h"
 
 #include <algorithm>
@@ -76,8 +77,18 @@ namespace tetradapt::report
   }
 
   std::string
-  csv_text(const std::string &text)
+  csv_text(const std::string &given)
   {
+    // Spreadsheets take a text that begins so for a formula, and may run what it names. A
+    // number is none, whatever its sign.
+    double      value;
+    const char *end = given.data() + given.size();
+    const auto  number
+      = std::from_chars(given.data() + (given.compare(0, 1, "+") == 0 ? 1 : 0), end, value);
+    const bool is_number  = number.ec == std::errc() && number.ptr == end;
+    const bool is_formula = !is_number && !given.empty()
+                            && std::string("=+-@\t\r\n").find(given[0]) != std::string::npos;
+    const std::string text = (is_formula ? "'" : "") + core::printable(given);
     if (text.find_first_of(",\"\n\r") == std::string::npos)
       return text;
     std::string quoted = "\"";

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/report/vtu_series.h"
 
-#include "tetradapt/core/atomic_file.h"
 #include "tetradapt/mesh/vtu_writer.h"
 #include "tetradapt/report/cell_stress.h"
 #include "tetradapt/report/record_columns.h"
@@ -70,8 +69,8 @@ namespace tetradapt::report
     return patches;
   }
 
-  VtuSeries::VtuSeries(const std::string &directory, const bool with_stress)
-    : directory(directory), with_stress(with_stress)
+  VtuSeries::VtuSeries(ResultFolder &folder, const bool with_stress)
+    : folder(folder), with_stress(with_stress)
   {
   }
 
@@ -86,7 +85,7 @@ namespace tetradapt::report
   VtuSeries::cycle_done(const adapt::CycleEvent &event)
   {
     const std::string name = file_name(event.record.cycle);
-    write_cycle(event, directory + "/" + name);
+    write_cycle(event, folder.prepare(name));
     entries.push_back({event.record.cycle, name});
     write_series();
   }
@@ -131,6 +130,6 @@ namespace tetradapt::report
       text += "    <DataSet timestep=\"" + std::to_string(entry.cycle)
               + "\" group=\"\" part=\"0\" file=\"" + entry.file + "\"/>\n";
     text += "  </Collection>\n</VTKFile>\n";
-    core::write_file(directory + "/" + scene_name + ".pvd", text);
+    folder.write(scene_name + ".pvd", text);
   }
 } // namespace tetradapt::report

@@ -53,6 +53,9 @@ namespace tetradapt::scene
   std::vector<std::string>
   nearest_names(const std::string &name, const std::vector<std::string> &valid)
   {
+    // No name is so long, and comparing takes as long as both are.
+    if (name.size() > 1000)
+      return {};
     std::vector<std::pair<unsigned int, std::string>> near;
     for (const auto &candidate : valid)
       {

@@ -52,6 +52,12 @@ namespace tetradapt::scene
     void
     check_text(const std::string &line, const Place &place)
     {
+      constexpr std::size_t longest = 1u << 20;
+      if (line.size() > longest)
+        refuse(place,
+               "this line has " + std::to_string(line.size())
+                 + " bytes. Is it a parameter file? Its lines have at most "
+                 + std::to_string(longest) + ".");
       for (std::size_t i = 0; i < line.size();)
         {
           const unsigned int length = utf8_length(line, i);
@@ -69,11 +75,16 @@ namespace tetradapt::scene
     {
       std::error_code error;
       const auto      status = fs::status(file, error);
+      if (error && error != std::errc::no_such_file_or_directory)
+        throw core::InputError(prefix + "'" + file + "' cannot be opened: " + error.message()
+                               + ". Correct the name of the parameter file.");
       if (!fs::exists(status))
         throw core::InputError(prefix + "there is no file '" + file
                                + "'. Correct the name of the parameter file.");
-      if (!fs::is_regular_file(status) && !fs::is_fifo(status))
-        throw core::InputError(prefix + "'" + file + "' is a folder or a device, not a file.");
+      // A pipe may have nobody who writes to it, and a device no end.
+      if (!fs::is_regular_file(status))
+        throw core::InputError(prefix + "'" + file
+                               + "' is a folder, a pipe or a device, not a file.");
       std::ifstream stream(file, std::ios::binary);
       if (!stream)
         throw core::InputError(prefix + "'" + file + "' cannot be opened. Check its permissions.");
@@ -100,12 +111,12 @@ namespace tetradapt::scene
       {
         if (++n_files > 1000)
           throw core::InputError(prefix + "more than 1000 files are included.");
-        const std::string identity = fs::weakly_canonical(file).string();
+        std::istringstream lines(content_of(file, prefix));
+        const std::string  identity = fs::weakly_canonical(file).string();
         if (std::find(open_files.begin(), open_files.end(), identity) != open_files.end())
           throw core::InputError(prefix + "'" + file
                                  + "' includes itself, directly or through others. Remove one "
                                    "of the include lines.");
-        std::istringstream lines(content_of(file, prefix));
         open_files.push_back(identity);
         const std::size_t depth = open.size();
         read_lines(lines, file, depth);

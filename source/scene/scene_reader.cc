@@ -343,6 +343,10 @@ namespace tetradapt::scene
       Scene scene;
       scene.file = file;
       scene.name = fs::path(file).stem().string();
+      if (scene.name == "." || scene.name == "..")
+        throw core::InputError("'" + file
+                               + "' has no name before its ending, by which its "
+                                 "results could be called. Rename the file.");
       dealii::ParameterHandler prm;
       declare(scene, prm);
       SceneSink sink(scene, prm);

@@ -9,6 +9,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <sstream>
 
@@ -99,15 +100,37 @@ main()
   std::cout << "bytes kept: " << (content(path) == binary) << std::endl;
 
   fs::create_symlink("a.txt", folder + "/link");
-  core::write_file(folder + "/link", "through the link");
-  std::cout << "link kept: " << fs::is_symlink(folder + "/link") << ", target: " << content(path)
-            << std::endl;
+  core::write_file(folder + "/link", "not through the link");
+  std::cout << "link kept: " << fs::is_symlink(folder + "/link")
+            << ", its target is: " << (content(path) == binary)
+            << ", file: " << content(folder + "/link") << std::endl;
 
   expect_error([] { core::write_file(folder + "/missing/a.txt", ""); });
   expect_error([] { core::write_file(folder, ""); });
   expect_error([] { core::write_file("", ""); });
   expect_error([] { core::write_file("/dev/null", ""); });
   std::cout << "/dev/null still a device: " << fs::is_character_file("/dev/null") << std::endl;
+
+  // The same reason, however small the writes were, and whoever asks first.
+  expect_error([] {
+    core::AtomicFile file(folder + "/b.txt");
+    file.stream() << std::string(70000, 'x');
+    file.stream().setstate(std::ios::badbit);
+    file.commit();
+  });
+  {
+    core::AtomicFile  file(folder + "/b.txt");
+    const std::string long_text(200000, 'y');
+    file.stream() << "start" << long_text << 'z' << std::flush << long_text
+                  << std::string(65536, 'w');
+    file.commit(true);
+    std::cout << "all of it: "
+              << (content(folder + "/b.txt")
+                  == "start" + long_text + "z" + long_text + std::string(65536, 'w'))
+              << std::endl;
+    fs::remove(folder + "/b.txt");
+    fs::remove(folder + "/link");
+  }
 
   // A disk that is full: no file may grow beyond 4096 bytes.
   std::signal(SIGXFSZ, SIG_IGN);

@@ -160,7 +160,8 @@ main()
     n_cleared += level == core::LogLevel::progress && text.empty();
   });
   std::ostringstream       terminal;
-  report::ConvergenceTable table(folder, &terminal, log);
+  report::ResultFolder     results(folder);
+  report::ConvergenceTable table(&results, &terminal, log);
   table.run_started(scene);
   for (unsigned int cycle = 0; cycle < 2; ++cycle)
     {
@@ -176,7 +177,7 @@ main()
   std::cout << terminal.str();
 
   // No files and no terminal asked for: none touched. A folder that is gone: said.
-  report::ConvergenceTable silent("", nullptr, log);
+  report::ConvergenceTable silent(nullptr, nullptr, log);
   silent.cycle_done({records[0], field, materials, nullptr, nullptr});
   std::cout << "silent rows " << silent.records().size() << std::endl;
   fs::remove_all(folder);

@@ -8,10 +8,14 @@
 #include "tetradapt/core/stage_timer.h"
 #include "tetradapt/report/log_sinks.h"
 
+#include <sys/resource.h>
+
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <set>
@@ -27,12 +31,60 @@ void
 print_files(const std::string &what)
 {
   std::set<std::string> names;
-  for (const auto &entry : fs::directory_iterator(folder + "/run"))
-    names.insert(entry.path().filename().string());
+  for (const auto &entry : fs::recursive_directory_iterator(folder + "/run"))
+    if (entry.path().filename() != report::ResultFolder::list_name && !entry.is_directory())
+      names.insert(fs::relative(entry.path(), folder + "/run").string());
   std::cout << what << ':';
   for (const std::string &name : names)
     std::cout << ' ' << name;
   std::cout << std::endl;
+}
+
+std::string
+content(const std::string &name)
+{
+  std::ostringstream text;
+  text << std::ifstream(folder + "/run/" + name).rdbuf();
+  return text.str();
+}
+
+/** A run that writes a log and, if it comes so far, results. */
+void
+run(const scene::Scene &scene, const std::string &number, const bool has_cycle)
+{
+  report::OutputDirectory directory(scene, "parameters " + number);
+  std::ofstream           log(directory.log_path());
+  log << "log " << number << std::flush;
+  if (has_cycle)
+    {
+      directory.begin();
+      directory.files().write("cycle_000.vtu", number);
+      directory.files().write("plots/ren.svg", number);
+    }
+  std::cout << "  " << directory.kept_results() << std::endl;
+  log << " end" << std::flush;
+  directory.end();
+}
+
+void
+test_runs(const scene::Scene &scene)
+{
+  run(scene, "1", false);
+  print_files("failed");
+  run(scene, "2", true);
+  print_files("done");
+  core::write_file(folder + "/run/notes.txt", "mine");
+  core::write_file(folder + "/run/cycle_1.vtu.bak", "mine");
+  run(scene, "3", false);
+  print_files("failed");
+  run(scene, "4", false);
+  print_files("failed again");
+  std::cout << content("log.txt") << ", " << content("log_failed.txt") << ", "
+            << content("parameters.prm") << ", " << content("cycle_000.vtu") << std::endl;
+  run(scene, "5", true);
+  print_files("done again");
+  std::cout << content("log.txt") << ", " << content("parameters.prm") << ", "
+            << content("cycle_000.vtu") << std::endl;
 }
 
 void
@@ -43,51 +95,12 @@ test_directory()
   scene.file = "prm/beam.prm";
   std::cout << "default: " << report::OutputDirectory::path_of(scene) << std::endl;
   scene.output.directory = folder + "/run";
-
-  const report::OutputDirectory first(scene);
-  print_files("new");
-
-  // Removed: what a run of this scene writes. Kept: everything else.
-  for (const std::string name : {"cycle_000.vtu",
-                                 "cycle_1234.vtu",
-                                 "beam.pvd",
-                                 "convergence.csv",
-                                 "convergence.txt",
-                                 "results.csv",
-                                 "study.txt",
-                                 "mesh.csv",
-                                 "size_field.vtu",
-                                 "log.txt",
-                                 ".log.txt.4321.0.tmp",
-                                 ".cycle_007.vtu.4321.12.tmp",
-                                 "parameters.prm",
-                                 "cycle_.vtu",
-                                 "cycle_00a.vtu",
-                                 "cycle_000.vtu.bak",
-                                 "my_cycle_000.vtu",
-                                 "plate.pvd",
-                                 ".notes.txt.4321.0.tmp",
-                                 ".log.txt.tmp",
-                                 "notes.txt"})
-    core::write_file(first.file(name), "old");
-  fs::create_directory(first.file("plots"));
-  for (const std::string name : {"ren.svg", "ren.gp", "mine.svg"})
-    core::write_file(first.file("plots/" + name), "old");
-  fs::create_directory(first.file("cycle_001.vtu"));
-  const report::OutputDirectory second(scene);
-  print_files("cleared");
-  std::cout << "plots: ren " << fs::exists(first.file("plots/ren.svg"))
-            << fs::exists(first.file("plots/ren.gp")) << ", mine "
-            << fs::exists(first.file("plots/mine.svg")) << std::endl;
-
-  second.write_parameters("set Degree = 2\n");
-  core::write_file(second.file("convergence.csv"), "");
-  std::cout << second.files_to_look_at() << std::endl;
+  test_runs(scene);
 
   const auto expect_error = [&] {
     try
       {
-        const report::OutputDirectory directory(scene);
+        const report::OutputDirectory directory(scene, "");
         std::cout << "no error" << std::endl;
       }
     catch (const core::InputError &e)
@@ -96,20 +109,68 @@ test_directory()
       }
   };
   // Results that the scene itself reads are not thrown away.
-  core::write_file(second.file("cycle_002.vtu"), "");
   scene.reference.type = scene::ReferenceParameters::Type::run;
-  scene.reference.file = folder + "/./run/cycle_002.vtu";
+  scene.reference.file = folder + "/./run/cycle_000.vtu";
   expect_error();
   scene.reference.type = scene::ReferenceParameters::Type::none;
   scene.mesh.source    = scene::MeshSource::file;
-  scene.mesh.files     = {folder + "/run/cycle_002.vtu"};
+  scene.mesh.files     = {folder + "/run/cycle_000.vtu"};
   expect_error();
-  std::cout << "kept: " << fs::exists(second.file("cycle_002.vtu")) << std::endl;
   scene.mesh.files.clear();
+
+  // Neither are files that a run would write, but did not.
+  for (const std::string name : {"convergence.csv", "cycle_0123.vtu", "beam.pvd", "plots/ren.gp"})
+    {
+      core::write_file(folder + "/run/" + name, "mine");
+      expect_error();
+      fs::remove(folder + "/run/" + name);
+    }
+  for (const std::string name : {"cycle_.vtu", "my_cycle_000.vtu", "plate.pvd", "plots/my.svg"})
+    core::write_file(folder + "/run/" + name, "mine");
+  expect_error();
+
+  // Nor are those of a study's run that this study still has.
+  scene::Scene first = scene, second = scene;
+  first.output.directory  = folder + "/run/01";
+  second.output.directory = folder + "/run/02";
+  {
+    report::OutputDirectory study(scene, "study", {&first, &second});
+    study.begin();
+    run(first, "6", true);
+    run(second, "7", true);
+    study.files().write("study.csv", "old");
+    study.end();
+    std::cout << study.files_to_look_at() << std::endl;
+  }
+  first.reference.type = scene::ReferenceParameters::Type::run;
+  first.reference.file = folder + "/run/02/cycle_000.vtu";
+  {
+    report::OutputDirectory study(scene, "study", {&first, &second});
+  }
+  try
+    {
+      report::OutputDirectory study(scene, "study", {&first});
+    }
+  catch (const core::InputError &e)
+    {
+      std::cout << e.what() << std::endl;
+    }
+  first.reference.type = scene::ReferenceParameters::Type::none;
+  {
+    report::OutputDirectory study(scene, "study", {&first});
+    print_files("a study that has not begun");
+    study.begin();
+    print_files("a study that has");
+  }
 
   scene.output.directory = folder + "/run/notes.txt";
   expect_error();
   scene.output.directory = folder + "/run/notes.txt/below";
+  expect_error();
+  scene.output.directory = folder + "/" + std::string(300, 'x');
+  expect_error();
+  fs::create_symlink("loop", folder + "/loop");
+  scene.output.directory = folder + "/loop";
   expect_error();
 }
 
@@ -166,7 +227,7 @@ test_sinks()
   std::cout << "terminal, quiet:\n" << terminal_output(true, true, 0.) << "|\n";
   std::cout << "file:\n" << terminal_output(false, false, 0.) << "|" << std::endl;
 
-  // log.txt: while an exception passes, and only when it is over.
+  // log.txt: as it comes, and also while an exception passes.
   const std::string path = folder + "/log.txt";
   core::Log         log;
   log.info("before");
@@ -175,7 +236,7 @@ test_sinks()
       report::LogFile file(log, path);
       log.info("two\nlines");
       log.progress("not in a file");
-      std::cout << "appears early: " << fs::exists(path) << std::endl;
+      std::cout << "as it comes: " << std::ifstream(path).ignore(1000, '\n').good() << std::endl;
       log.error("it failed");
       throw std::runtime_error("stop");
     }
@@ -191,6 +252,54 @@ test_sinks()
                          && std::abs(std::strtod(line.c_str() + 1, nullptr)) < 10.;
       std::cout << (timed ? "[time] " : "       ") << line.substr(15) << std::endl;
     }
+}
+
+/** Closed by another thread, and on a disk that is full. */
+void
+test_log_ends()
+{
+  core::Log         log;
+  const std::string path = folder + "/ended.txt";
+  {
+    report::LogFile file(log, path);
+    log.info("first");
+    file.close_with("ended");
+    log.info("late");
+  }
+  std::ifstream in(path);
+  for (std::string line; std::getline(in, line);)
+    std::cout << line.substr(15) << std::endl;
+  const auto expect_error = [&](const auto &action) {
+    try
+      {
+        action();
+        std::cout << "no error" << std::endl;
+      }
+    catch (const std::exception &e)
+      {
+        std::cout << (dynamic_cast<const core::InputError *>(&e) != nullptr ? "InputError: "
+                                                                            : "NumericalError: ")
+                  << e.what() << std::endl;
+      }
+  };
+  expect_error([&] { report::LogFile file(log, path); });
+  fs::create_symlink("ended.txt", folder + "/link.txt");
+  expect_error([&] { report::LogFile file(log, folder + "/link.txt"); });
+  log.info("no sink is left");
+
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit{};
+  getrlimit(RLIMIT_FSIZE, &limit);
+  limit.rlim_cur = 100;
+  setrlimit(RLIMIT_FSIZE, &limit);
+  report::LogFile file(log, folder + "/full.txt");
+  log.info("short");
+  file.check();
+  log.info(std::string(200, 'x'));
+  limit.rlim_cur = limit.rlim_max;
+  setrlimit(RLIMIT_FSIZE, &limit);
+  expect_error([&] { file.check(); });
+  expect_error([&] { file.close(); });
 }
 
 /** Uses @p seconds of CPU time, and at least as much wall time. */
@@ -266,6 +375,7 @@ main()
   fs::remove_all(folder);
   test_directory();
   test_sinks();
+  test_log_ends();
   test_timer();
   fs::remove_all(folder);
 }

@@ -132,14 +132,15 @@ namespace
   with_path(const std::string &what, const std::string &path)
   {
     setenv("PATH", path.c_str(), 1);
-    const fs::path folder = "plots_scratch/pictures";
-    fs::remove_all(folder);
+    const fs::path folder = "plots_scratch/pictures/plots";
+    fs::remove_all(folder.parent_path());
     core::Log log;
     std::cout << what << ":\n";
     log.add_sink([](const core::LogLevel level, const std::string &text) {
       std::cout << "  " << (level == core::LogLevel::warning ? "warning: " : "") << text << '\n';
     });
-    report::PictureFolder pictures(folder.string(), log);
+    report::ResultFolder  results("plots_scratch/pictures");
+    report::PictureFolder pictures(results, log);
     pictures.add("nothing", "");
     pictures.add("one", "plot x\n");
     pictures.add("two", "plot x\n");
@@ -187,7 +188,8 @@ main()
   log.add_sink([&](const core::LogLevel level, const std::string &) {
     n_warnings += level == core::LogLevel::warning;
   });
-  report::PictureFolder pictures("plots_scratch/real", log);
+  report::ResultFolder  results("plots_scratch/real");
+  report::PictureFolder pictures(results, log);
   unsigned int          n_pictures = 0, n_plots = 0;
   for (const auto &plot : report::plots_of_run(scene, make_records()))
     {
@@ -197,7 +199,7 @@ main()
   pictures.draw();
   for (const auto &plot : report::plots_of_run(scene, make_records()))
     {
-      const std::string svg = content("plots_scratch/real/" + plot.name + ".svg");
+      const std::string svg = content("plots_scratch/real/plots/" + plot.name + ".svg");
       n_pictures += count(svg, "it's &lt;5 %&lt; &amp; \"{x}_1\" \\ done") == 1;
     }
   const bool installed = !report::find_gnuplot().empty();

@@ -93,7 +93,8 @@ test_run(const unsigned int degree, const bool full)
   if (full)
     record.relative_energy_error = 1. / 3.;
 
-  report::VtuSeries series(folder, full);
+  report::ResultFolder results(folder);
+  report::VtuSeries    series(results, full);
   series.run_started(scene);
   for (record.cycle = 0; record.cycle < 2; ++record.cycle)
     series.cycle_done({record, u, materials, full ? &indicators : nullptr, full ? &ren : nullptr});

@@ -169,8 +169,6 @@ end
             && contains(read("half/s.pvd"), "</VTKFile>"));
     check("  the error is in the log", contains(read("half/log.txt"), "line 5: 'nan'"));
     // The next run does not mix with the leftovers.
-    write("half/.cycle_001.vtu.1234.0.tmp", "left by a killed run");
-    write("half/cycle_007.vtu", "left by a longer run");
     write("half/notes.txt", "the user's own");
     run("--quiet --output-directory half s.prm");
     std::cout << "  then: " << files("half") << std::endl;

@@ -193,7 +193,7 @@ namespace program
     return name;
   }
 
-  /** Names of the files in a folder, sorted, in one line. */
+  /** Names of the files in a folder, sorted, in one line, without the program's list. */
   inline std::string
   files(const fs::path &folder)
   {
@@ -201,6 +201,7 @@ namespace program
     if (fs::exists(folder))
       for (const auto &entry : fs::directory_iterator(folder))
         names[entry.path().filename().string()] = true;
+    names.erase(".tetradapt-files");
     std::string text;
     for (const auto &name : names)
       text += (text.empty() ? "" : " ") + name.first;

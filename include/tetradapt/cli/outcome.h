@@ -5,6 +5,7 @@
 #include <mpi.h>
 
 #include <functional>
+#include <iosfwd>
 #include <string>
 
 namespace tetradapt::cli
@@ -23,6 +24,15 @@ namespace tetradapt::cli
    * numerical failure. */
   Outcome
   attempt(const std::function<void()> &action);
+
+  /** Prints @p message as "error: ..." to stderr, made printable. */
+  void
+  print_error(const std::string &message);
+
+  /** @throws core::NumericalError if something could not be written to @p stream, which is
+   * the standard output: it is closed, or a file on a full disk. */
+  void
+  require_written(std::ostream &stream);
 
   /**
    * Makes all ranks agree on how a collective action ended, and prints the error

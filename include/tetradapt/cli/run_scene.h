@@ -3,6 +3,7 @@
 #define tetradapt_cli_run_scene_h
 
 #include "tetradapt/adapt/observer.h"
+#include "tetradapt/core/interrupt_watcher.h"
 #include "tetradapt/scene/scene.h"
 
 #include <mpi.h>
@@ -19,6 +20,8 @@ namespace tetradapt::cli
     bool        brief   = false; ///< nothing but progress, warnings and errors on stderr
     bool        verbose = false; ///< plan, meshes, solvers and times on stderr also
     std::string command_line;    ///< as it was typed, for the log
+    /** Is told how to end a run in good order; may be null. */
+    core::InterruptWatcher *interrupts = nullptr;
   };
 
   /**

@@ -2,7 +2,9 @@
 #ifndef tetradapt_core_atomic_file_h
 #define tetradapt_core_atomic_file_h
 
-#include <fstream>
+#include "tetradapt/core/descriptor_buffer.h"
+
+#include <ostream>
 #include <string>
 
 namespace tetradapt::core
@@ -13,7 +15,7 @@ namespace tetradapt::core
    * sees the earlier file or none. Destroyed without commit(), for example by an
    * exception, it leaves nothing behind.
    *
-   * A name that is a symbolic link to a file replaces the file, not the link.
+   * A name that is a symbolic link is replaced itself; what it points to stays as it is.
    */
   class AtomicFile
   {
@@ -22,7 +24,7 @@ namespace tetradapt::core
      * Opens a temporary file next to @p path (binary mode).
      * @throws InputError with the path and the system's reason if the directory
      *         does not exist or may not be written to, or if @p path is a
-     *         directory or a device.
+     *         directory or a device; NumericalError if the disk is full.
      */
     explicit AtomicFile(const std::string &path);
     ~AtomicFile();
@@ -61,10 +63,10 @@ namespace tetradapt::core
     void
     fail(const std::string &what, int error_number);
 
-    std::string   name;      ///< as given, for messages
-    std::string   target;    ///< with symbolic links resolved
-    std::string   temporary; ///< empty once renamed or removed
-    std::ofstream out;
+    std::string      name;
+    std::string      temporary; ///< empty once renamed or removed
+    DescriptorBuffer buffer;
+    std::ostream     out;
   };
 
   /** Writes @p content to @p path by an AtomicFile. @throws as AtomicFile does. */

@@ -5,6 +5,7 @@
 #include "tetradapt/adapt/observer.h"
 #include "tetradapt/core/log.h"
 #include "tetradapt/report/record_columns.h"
+#include "tetradapt/report/result_folder.h"
 
 #include <iosfwd>
 #include <string>
@@ -51,13 +52,13 @@ namespace tetradapt::report
   {
   public:
     /**
-     * @param directory where the files go; empty: none are written.
+     * @param folder   where the files go; null: none are written. Must outlive the object.
      * @param terminal  where rows are printed as they come, normally std::cout;
      *                  null: nowhere. Must outlive the object.
      * @param log       cleared of a progress line before a row is printed. Must
      *                  outlive the object.
      */
-    ConvergenceTable(const std::string &directory, std::ostream *terminal, const core::Log &log);
+    ConvergenceTable(ResultFolder *folder, std::ostream *terminal, const core::Log &log);
 
     /** Begins a new table. */
     void
@@ -75,7 +76,7 @@ namespace tetradapt::report
     }
 
   private:
-    std::string                     directory;
+    ResultFolder                   *folder;
     std::ostream                   *terminal;
     const core::Log                &log;
     std::vector<adapt::CycleRecord> rows;

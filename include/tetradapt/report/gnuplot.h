@@ -3,6 +3,7 @@
 #define tetradapt_report_gnuplot_h
 
 #include "tetradapt/core/log.h"
+#include "tetradapt/report/result_folder.h"
 
 #include <array>
 #include <optional>
@@ -76,16 +77,15 @@ namespace tetradapt::report
 
   /**
    * Writes pictures, <name>.svg, and next to each the script <name>.gp that it was made by,
-   * into a folder. One gnuplot draws all pictures, since its start takes longer than a
-   * picture. Without gnuplot there are only scripts, and the log says so
-   * once; that a picture fails is a warning, never the end of a run.
+   * into the folder "plots" of a folder of results. One gnuplot draws all pictures, since its
+   * start takes longer than a picture. Without gnuplot there are only scripts, and the log
+   * says so once; that a picture fails is a warning, never the end of a run.
    */
   class PictureFolder
   {
   public:
-    /** @param folder made when there is something to write.
-     * @param log must outlive the object. */
-    PictureFolder(const std::string &folder, const core::Log &log);
+    /** Both arguments must outlive the object. */
+    PictureFolder(ResultFolder &folder, const core::Log &log);
 
     /** Writes the script; the picture is drawn by draw(). Nothing for an empty script.
      * @throws InputError or NumericalError if a file cannot be written. */
@@ -108,7 +108,7 @@ namespace tetradapt::report
     std::optional<std::string>
     draw(const std::vector<Picture> &pictures) const;
 
-    std::string          folder;
+    ResultFolder        &folder;
     const core::Log     &log;
     std::string          program;
     std::vector<Picture> waiting;

@@ -2,11 +2,12 @@
 #ifndef tetradapt_report_log_sinks_h
 #define tetradapt_report_log_sinks_h
 
-#include "tetradapt/core/atomic_file.h"
+#include "tetradapt/core/descriptor_buffer.h"
 #include "tetradapt/core/log.h"
 
 #include <chrono>
 #include <iosfwd>
+#include <mutex>
 #include <string>
 
 namespace tetradapt::report
@@ -75,36 +76,46 @@ namespace tetradapt::report
   };
 
   /**
-   * Writes a log's messages to a file, each with the seconds since construction;
-   * progress is left out. The file appears when the object is closed or destroyed,
-   * also while an exception is passing: to have an error in it, let the object
-   * live until the error has been sent to the log.
+   * Writes a log's messages to a file as they come, each with the seconds since
+   * construction; progress is left out.
    */
   class LogFile
   {
   public:
-    /** @p log must outlive the object. @throws InputError if @p path cannot be
-     * written. */
+    /**
+     * @param log must outlive the object.
+     * @param path a file that does not exist. It may be renamed while the object lives.
+     * @throws InputError if it cannot be written.
+     */
     LogFile(core::Log &log, const std::string &path);
 
-    /** Closes; here a full disk costs the file, without a message. */
     ~LogFile();
     LogFile(const LogFile &) = delete;
     LogFile &
     operator=(const LogFile &)
       = delete;
 
-    /** Gives the file its name. Later messages are not in it.
-     * @throws NumericalError if it could not be written. */
+    /** @throws NumericalError if a message could not be written. */
+    void
+    check();
+
+    /** Closes the file. Later messages are not in it. @throws as check() does. */
     void
     close();
+
+    /** For another thread than the log's, when the process ends at once: writes @p text as
+     * the last message, unless a message is just being written and does not end. */
+    void
+    close_with(const std::string &text);
 
   private:
     void
     write(core::LogLevel level, const std::string &text);
 
     core::Log                            &log;
-    core::AtomicFile                      file;
+    std::string                           path;
+    std::timed_mutex                      mutex; ///< for the buffer
+    core::DescriptorBuffer                buffer;
     std::chrono::steady_clock::time_point start;
     unsigned int                          number;
     bool                                  closed = false;

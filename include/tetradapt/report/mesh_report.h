@@ -4,6 +4,7 @@
 
 #include "tetradapt/adapt/observer.h"
 #include "tetradapt/core/log.h"
+#include "tetradapt/report/result_folder.h"
 
 #include <string>
 #include <vector>
@@ -26,9 +27,9 @@ namespace tetradapt::report
   class MeshReport : public adapt::Observer
   {
   public:
-    /** @param directory where the file goes; empty: it is not written.
+    /** @param folder where the file goes; null: it is not written. Must outlive the object.
      * @param log must outlive the object. */
-    MeshReport(const std::string &directory, const core::Log &log);
+    MeshReport(ResultFolder *folder, const core::Log &log);
 
     void
     run_started(const scene::Scene &scene) override;
@@ -37,7 +38,7 @@ namespace tetradapt::report
     cycle_done(const adapt::CycleEvent &event) override;
 
   private:
-    std::string                     directory;
+    ResultFolder                   *folder;
     const core::Log                &log;
     std::vector<adapt::CycleRecord> records;
   };

@@ -2,6 +2,7 @@
 #ifndef tetradapt_report_output_directory_h
 #define tetradapt_report_output_directory_h
 
+#include "tetradapt/report/result_folder.h"
 #include "tetradapt/scene/scene.h"
 
 #include <string>
@@ -10,12 +11,10 @@
 namespace tetradapt::report
 {
   /**
-   * The directory that a run writes to: made if it is missing, checked to be
-   * writable, and free of what an earlier run of the scene left, so that the
-   * files of two runs are never mixed. Only files that this program writes are
-   * removed: cycle_NNN.vtu, <scene>.pvd, size_field.vtu, log.txt, the tables convergence,
-   * study, results (.csv, .txt) and mesh.csv, temporary files that a killed run has left
-   * of those, and the plots; parameters.prm is replaced.
+   * The directory that a run or a study writes to. What an earlier run left is removed when
+   * begin() is called, that is, when this one has something to show; a run that fails
+   * before leaves the old results, and its log has the name log_failed.txt. Where an
+   * earlier run left nothing but its log and its input, the new one begins at once.
    */
   class OutputDirectory
   {
@@ -24,43 +23,59 @@ namespace tetradapt::report
      * Prepares the directory of @p scene: its Output directory, or output/<name>
      * below the working directory. To be made on MPI rank 0 only.
      *
-     * @throws InputError if the directory cannot be made or written to, or if the
-     *         scene reads one of the files that would be removed.
+     * @param parameters the complete effective input, which begin() writes as parameters.prm.
+     * @param runs of a study, whose directories lie in this one.
+     * @throws InputError if the directory cannot be made or written to, if another run
+     *         writes to it, if the run would replace files that the program did not write,
+     *         or if the scene reads one of the files that would be removed.
      */
-    explicit OutputDirectory(const scene::Scene &scene);
+    OutputDirectory(const scene::Scene                      &scene,
+                    const std::string                       &parameters,
+                    const std::vector<const scene::Scene *> &runs = {});
 
     /** Where a run of @p scene writes to; touches no file. */
     static std::string
     path_of(const scene::Scene &scene);
 
+    /** What writes the files of the run. */
+    ResultFolder &
+    files()
+    {
+      return folder;
+    }
+
     const std::string &
     path() const
     {
-      return directory;
+      return folder.path();
     }
 
     /** Path of the file @p name in the directory. */
     std::string
     file(const std::string &name) const
     {
-      return directory + "/" + name;
+      return folder.file(name);
     }
 
-    /** Writes parameters.prm, the complete effective input, given as text. */
-    void
-    write_parameters(const std::string &content) const;
+    /** Path of the log, a file that does not exist: log.txt, or log_new.txt until begin()
+     * where earlier results are kept so long. */
+    std::string
+    log_path();
 
-    /**
-     * Removes what runs have left in folders of this one that no run of a study writes to
-     * any more: folders with a number and a hyphen at the beginning of their name and with
-     * parameters.prm and log.txt inside. Only the files of a run are removed, and the folder
-     * if it is empty then.
-     *
-     * @param runs all runs of the study.
-     * @throws InputError if one of them reads a file that would be removed.
-     */
+    /** Removes what earlier runs left, also in directories of an earlier study's runs that
+     * this one has not, and gives the log its name. Only the first call does something.
+     * @throws InputError if another program writes to such a directory. */
     void
-    remove_other_runs(const std::vector<const scene::Scene *> &runs) const;
+    begin();
+
+    /** Notes the state of all files; a log that has no name of its own becomes
+     * log_failed.txt. To be called when the log is closed. */
+    void
+    end();
+
+    /** What to tell about a run that ended before begin(); empty if that was called. */
+    std::string
+    kept_results() const;
 
     /** What a user looks at after a run: one line a file that exists, saying what
      * it is. */
@@ -76,8 +91,10 @@ namespace tetradapt::report
     study_files_in_short(const std::string &directory);
 
   private:
-    std::string directory;
-    std::string scene_name;
+    ResultFolder folder;
+    std::string  scene_name;
+    std::string  parameters;
+    std::string  log_name; ///< empty until log_path() is called
   };
 } // namespace tetradapt::report
 

@@ -4,6 +4,7 @@
 
 #include "tetradapt/adapt/observer.h"
 #include "tetradapt/report/gnuplot.h"
+#include "tetradapt/report/result_folder.h"
 
 #include <map>
 #include <string>
@@ -74,8 +75,8 @@ namespace tetradapt::report
   class RunPlots : public adapt::Observer
   {
   public:
-    /** Plots go to the folder "plots" in @p directory. @p log must outlive the object. */
-    RunPlots(const std::string &directory, const core::Log &log);
+    /** Plots go to the folder "plots" in @p folder. Both arguments must outlive the object. */
+    RunPlots(ResultFolder &folder, const core::Log &log);
 
     void
     run_started(const scene::Scene &scene) override;
@@ -89,17 +90,17 @@ namespace tetradapt::report
     LinePlot
     indicator_plot() const;
 
-    std::string                               directory;
+    ResultFolder                             &folder;
     const core::Log                          &log;
     scene::Scene                              scene;
     std::vector<adapt::CycleRecord>           records;
     std::vector<std::map<int, unsigned long>> indicators; ///< one a cycle; may be empty
   };
 
-  /** Draws the plots of a study into the folder "plots" in @p directory; at most the first
+  /** Draws the plots of a study into the folder "plots" in @p folder; at most the first
    * 28 runs, which is what colours and lines can tell apart, and the log says so. */
   void
-  draw_study(const std::string             &directory,
+  draw_study(ResultFolder                  &folder,
              const std::string             &title,
              const std::vector<PlottedRun> &runs,
              const std::string             &key,

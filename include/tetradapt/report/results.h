@@ -4,6 +4,7 @@
 
 #include "tetradapt/adapt/observer.h"
 #include "tetradapt/core/log.h"
+#include "tetradapt/report/result_folder.h"
 
 #include <optional>
 #include <string>
@@ -53,9 +54,9 @@ namespace tetradapt::report
   class ResultsSummary : public adapt::Observer
   {
   public:
-    /** @param directory where the files go; empty: none are written.
+    /** @param folder where the files go; null: none are written. Must outlive the object.
      * @param log must outlive the object. */
-    ResultsSummary(const std::string &directory, const core::Log &log);
+    ResultsSummary(ResultFolder *folder, const core::Log &log);
 
     void
     run_started(const scene::Scene &scene) override;
@@ -66,7 +67,7 @@ namespace tetradapt::report
     run_done(const std::string &reason) override;
 
   private:
-    std::string                       directory;
+    ResultFolder                     *folder;
     const core::Log                  &log;
     scene::Scene                      scene;
     std::optional<adapt::CycleRecord> last;

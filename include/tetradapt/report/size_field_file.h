@@ -3,6 +3,7 @@
 #define tetradapt_report_size_field_file_h
 
 #include "tetradapt/adapt/observer.h"
+#include "tetradapt/report/result_folder.h"
 
 #include <string>
 
@@ -13,8 +14,8 @@ namespace tetradapt::report
   class SizeFieldFile : public adapt::Observer
   {
   public:
-    /** @param directory where the file goes; it must exist. */
-    explicit SizeFieldFile(const std::string &directory);
+    /** @param folder where the file goes; must outlive the object. */
+    explicit SizeFieldFile(ResultFolder &folder);
 
     /** A rejected cycle changes nothing.
      * @throws InputError or NumericalError if the file cannot be written. */
@@ -22,7 +23,7 @@ namespace tetradapt::report
     cycle_done(const adapt::CycleEvent &event) override;
 
   private:
-    std::string directory;
+    ResultFolder &folder;
   };
 } // namespace tetradapt::report
 

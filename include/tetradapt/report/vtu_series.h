@@ -3,6 +3,7 @@
 #define tetradapt_report_vtu_series_h
 
 #include "tetradapt/adapt/observer.h"
+#include "tetradapt/report/result_folder.h"
 
 #include <string>
 #include <vector>
@@ -24,10 +25,10 @@ namespace tetradapt::report
   {
   public:
     /**
-     * @param directory   where the files go; it must exist.
+     * @param folder      where the files go; must outlive the object.
      * @param with_stress whether stresses are computed and written.
      */
-    VtuSeries(const std::string &directory, bool with_stress);
+    VtuSeries(ResultFolder &folder, bool with_stress);
 
     /** Begins a new series, named after @p scene. */
     void
@@ -43,9 +44,9 @@ namespace tetradapt::report
     void
     write_series() const;
 
-    std::string directory;
-    bool        with_stress;
-    std::string scene_name = "scene";
+    ResultFolder &folder;
+    bool          with_stress;
+    std::string   scene_name = "scene";
 
     struct Entry
     {
