@@ -293,7 +293,8 @@ namespace tetradapt::cli
     char                                          *names[] = {argv[0], nullptr};
     char                                         **first   = names;
     const dealii::Utilities::MPI::MPI_InitFinalize mpi(n_names, first, 1);
-    core::InterruptWatcher                         interrupts(end_by_signal);
+    ignore_write_signals(); // some library that MPI starts undoes it
+    core::InterruptWatcher interrupts(end_by_signal);
     run_options.interrupts = &interrupts;
     return run(options, run_options);
   }

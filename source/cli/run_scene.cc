@@ -190,8 +190,8 @@ namespace tetradapt::cli
             + std::to_string(n_cycles) + (n_cycles == 1 ? " cycle. " : " cycles. ")
             + (kept.empty() ? "What there is lies in '" + directory.path() + "'." : kept + ".");
         log_file.close_with(text);
-        directory.files().remove_temporaries();
         directory.end();
+        directory.files().end_at_once();
         const std::string line = (sink_options(options).is_terminal ? "\r\033[K" : "")
                                  + core::printable("error: " + text) + "\n";
         if (::write(STDERR_FILENO, line.data(), line.size()) < 0)

@@ -82,10 +82,16 @@ namespace tetradapt::core
 
   FolderLock::~FolderLock()
   {
+    remove_file();
+    ::close(descriptor);
+  }
+
+  void
+  FolderLock::remove_file() const
+  {
     // While the lock is held: nobody else can have made a file of this name.
     if (is_current())
       ::unlink(path.c_str());
-    ::close(descriptor);
   }
 
   /** Whether the open file is the one that the name stands for. */

@@ -82,7 +82,10 @@ namespace tetradapt::core
           line.append(text, i, n);
         else
           {
-            std::snprintf(escape, sizeof escape, n > 1 ? "\\u%04x" : "\\x%02x", code);
+            if (n > 1)
+              std::snprintf(escape, sizeof escape, "\\u%04x", code);
+            else
+              std::snprintf(escape, sizeof escape, "\\x%02x", static_cast<unsigned char>(text[i]));
             line += escape;
           }
         i += n > 0 ? n : 1;

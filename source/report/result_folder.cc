@@ -244,11 +244,13 @@ namespace tetradapt::report
                                "remove it."
                              + advice);
     if (n_foreign > 0)
-      throw core::InputError(
-        "The file '" + file(foreign) + "'"
-        + (n_foreign > 1 ? " (and " + std::to_string(n_foreign - 1) + " more)" : std::string())
-        + " was not written by this program as far as the list '" + list_name
-        + "' in that folder tells, and this run would replace it." + advice);
+      throw core::InputError("The file '" + file(foreign) + "'"
+                             + (n_foreign > 1
+                                  ? " and " + std::to_string(n_foreign - 1) + " more were"
+                                  : std::string(" was"))
+                             + " not written by this program as far as the list '" + list_name
+                             + "' in that folder tells, and this run would replace "
+                             + (n_foreign > 1 ? "them." : "it.") + advice);
   }
 
   void
@@ -419,10 +421,12 @@ namespace tetradapt::report
   }
 
   void
-  ResultFolder::remove_temporaries() const
+  ResultFolder::end_at_once()
   {
     for (const Entry &entry : entries)
       if (!entry.is_earlier && !entry.is_folder)
         remove_temporaries_of(entry.name, ::getpid());
+    finish();
+    lock.remove_file();
   }
 } // namespace tetradapt::report

@@ -130,6 +130,7 @@ main()
               << std::endl;
     fs::remove(folder + "/b.txt");
     fs::remove(folder + "/link");
+    core::write_file(path, "as before");
   }
 
   // A disk that is full: no file may grow beyond 4096 bytes.

@@ -57,7 +57,12 @@ namespace
       }
     catch (const core::InputError &e)
       {
-        std::cout << e.what() << std::endl;
+        // Which process it is, differs.
+        std::string       text    = e.what();
+        const std::size_t process = text.find(" (process ");
+        if (process != std::string::npos)
+          text.erase(process, text.find(')', process) + 1 - process);
+        std::cout << text << std::endl;
       }
   }
 

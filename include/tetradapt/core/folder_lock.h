@@ -37,6 +37,10 @@ namespace tetradapt::core
       return trouble;
     }
 
+    /** Removes the file, for a process that ends without destroying the object. */
+    void
+    remove_file() const;
+
   private:
     bool
     is_current() const;

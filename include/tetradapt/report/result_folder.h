@@ -121,9 +121,10 @@ namespace tetradapt::report
     void
     finish();
 
-    /** Removes the temporary files that this process is writing, for one that ends at once. */
+    /** For a process that ends at once: finish(), and removes the temporary files that it is
+     * writing and the lock. */
     void
-    remove_temporaries() const;
+    end_at_once();
 
   private:
     struct Entry
