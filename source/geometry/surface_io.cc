@@ -4,7 +4,7 @@
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/geometry/surface_topology.h"
 
-#include "surface_headers.h"
+#include "surface_file_checks.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/IO/OBJ.h>
@@ -17,6 +17,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <sstream>
 
 namespace tetradapt::geometry
 {
@@ -72,7 +73,14 @@ namespace tetradapt::geometry
           else if (format == ".obj")
             good = CGAL::IO::read_OBJ(file, soup.points, soup.polygons);
           else
-            good = CGAL::IO::read_PLY(file, soup.points, soup.polygons);
+            {
+              std::istringstream contents(checked_ply(file));
+              good = CGAL::IO::read_PLY(contents, soup.points, soup.polygons);
+            }
+        }
+      catch (const InputError &)
+        {
+          throw;
         }
       catch (const std::exception &)
         {
@@ -161,9 +169,7 @@ namespace tetradapt::geometry
                        + "'; known are " + surface_formats() + '.');
     check_file(file);
     if (format == ".off")
-      check_off_header(file);
-    if (format == ".ply")
-      check_ply_header(file);
+      check_off_file(file);
     const Soup soup = read_soup(file, format);
     if (soup.points.size() > std::numeric_limits<int>::max())
       throw InputError("The surface file '" + file + "' has too many points for this program.");

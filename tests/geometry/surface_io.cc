@@ -53,11 +53,11 @@ namespace
   }
 
   std::string
-  triangles(const std::string &prefix, unsigned int shift)
+  triangles(const std::string &prefix, unsigned int shift, const std::string &end = "")
   {
     std::ostringstream text;
     for (const auto &t : cube.triangles)
-      text << prefix << t[0] + shift << ' ' << t[1] + shift << ' ' << t[2] + shift << '\n';
+      text << prefix << t[0] + shift << ' ' << t[1] + shift << ' ' << t[2] + shift << end << '\n';
     return text.str();
   }
 
@@ -75,6 +75,15 @@ namespace
         text << "endloop\nendfacet\n";
       }
     return text.str() + "endsolid cube\n";
+  }
+
+  std::string
+  coloured_points()
+  {
+    std::ostringstream text;
+    for (const auto &p : cube.points)
+      text << p[0] << ' ' << p[1] << ' ' << p[2] << " 0.5 0.25 1\n";
+    return text.str();
   }
 
   template <typename T>
@@ -100,6 +109,27 @@ namespace
       }
     return bytes;
   }
+
+  /** A .ply file in binary form, with @p shift added to the point numbers. */
+  template <typename Coordinate, typename Number>
+  std::string
+  binary_ply(const std::string &coordinate, const std::string &number, const int shift = 0)
+  {
+    std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex 8\n";
+    for (const char *name : {"x", "y", "z"})
+      bytes += "property " + coordinate + ' ' + name + '\n';
+    bytes += "element face 12\nproperty list uchar " + number + " vertex_indices\nend_header\n";
+    for (const auto &p : cube.points)
+      for (unsigned int d = 0; d < 3; ++d)
+        append(bytes, static_cast<Coordinate>(p[d]));
+    for (const auto &t : cube.triangles)
+      {
+        append(bytes, static_cast<std::uint8_t>(3));
+        for (const unsigned int v : t)
+          append(bytes, static_cast<Number>(v + shift));
+      }
+    return bytes;
+  }
 } // namespace
 
 int
@@ -119,6 +149,23 @@ main()
   read("quadrangles.off",
        "OFF\n8 6 0\n" + points("")
          + "4 0 4 6 2\n4 1 3 7 5\n4 0 1 5 4\n4 2 6 7 3\n4 0 2 3 1\n4 4 5 7 6\n");
+
+  // CGAL's reader crashes on coordinates of whole-number types, and takes point numbers of
+  // four bytes only.
+  const auto replaced = [](std::string text, const std::string &old, const std::string &by) {
+    for (std::size_t at = 0; (at = text.find(old, at)) != std::string::npos; at += by.size())
+      text.replace(at, old.size(), by);
+    return text;
+  };
+  read("whole.ply", replaced(ply, "float", "short") + points("") + triangles("3 ", 0));
+  read("small.ply", replaced(ply, "uchar int", "int ushort") + points("") + triangles("3 ", 0));
+  read("little.ply", binary_ply<float, std::int32_t>("float", "int"));
+  read("little_whole.ply", binary_ply<std::int32_t, std::int32_t>("int", "int"));
+  read("little_short.ply", binary_ply<float, std::int16_t>("float", "short"));
+  read("colours.off", "COFF\n8 12 0\n" + coloured_points() + triangles("3 ", 0));
+  read("coloured_faces.off", "OFF\n8 12 0\n" + points("") + triangles("3 ", 0, " 255 0 0"));
+  read("comments.off",
+       "# a cube\nOFF # really\n\n8 12 0\n" + points("") + "# triangles\n" + triangles("3 ", 0));
 
   std::filesystem::create_directory("folder.stl");
   read("missing.off");
@@ -142,6 +189,23 @@ main()
   read("no_triangles.obj", points("v "));
   read("out_of_range.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n");
   read("two_corners.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n");
+  // Each ended in a segmentation fault or an endless loop of CGAL's readers, or was read
+  // as something else.
+  read("short_line.off", "COFF\n3 0 0\nx\n");
+  read("no_colour.off", "COFF\n8 12 0\n" + points("") + triangles("3 ", 0));
+  read("binary.off", "OFF BINARY\n8 12 0\n" + points(""));
+  read("other.off", "4OFF\n8 12 0\n" + points("") + triangles("3 ", 0));
+  read("letter.off", replaced(off, "1 1 1", "1 x 1"));
+  read("endless.off", replaced(off, "1 1 1", "1 nan 1"));
+  read("many_corners.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n1000000000 0 1 2\n");
+  read("minus.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n");
+  read("short_line.ply", ply + replaced(points(""), "1 1 1", "1 1") + triangles("3 ", 0));
+  read("long_line.ply", ply + replaced(points(""), "1 1 1", "1 1 1 1") + triangles("3 ", 0));
+  read("out_of_range.ply", ply + points("") + replaced(triangles("3 ", 0), "7", "8"));
+  read("cut_little.ply", binary_ply<float, std::int32_t>("float", "int").substr(0, 300));
+  read("range_little.ply", binary_ply<float, std::int32_t>("float", "int", 1));
+  read("real_corners.ply", replaced(ply, "uchar int", "uchar float"));
+  read("one_word.off", std::string(100000, '7'));
   // A letter U: no corner sees all others.
   read("not_convex.off",
        "OFF\n8 1 0\n0 0 0\n3 0 0\n3 2 0\n2 2 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n8 0 1 2 3 4 5 6 7\n");
