@@ -62,7 +62,7 @@ namespace tetradapt::compare
     mesh::TetMesh mesh
       = parameters.route == scene::ReferenceParameters::MeshRoute::bricks
           ? mesh::bricks(scene.mesh.lower_corner, scene.mesh.upper_corner, parameters.cells)
-          : mesh::read_volume_mesh(parameters.file);
+          : mesh::read_volume_mesh(parameters.file, log);
     mesh::select_faces(mesh, mesh::face_selectors(scene));
     return mesh;
   }

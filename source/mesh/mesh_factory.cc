@@ -112,7 +112,7 @@ namespace tetradapt::mesh
           {
             const std::string &file = entry(parameters.files, number);
             log.progress("reading " + file);
-            TetMesh mesh = read_volume_mesh(file);
+            TetMesh mesh = read_volume_mesh(file, log);
             // New points would lie on no curved surface.
             if (projection != nullptr)
               projection->assign(mesh);

@@ -2,6 +2,7 @@
 #include "tetradapt/mesh/volume_reader.h"
 
 #include "tetradapt/core/exceptions.h"
+#include "tetradapt/mesh/embedding.h"
 #include "tetradapt/mesh/file_scanner.h"
 #include "tetradapt/mesh/mesh_checks.h"
 #include "tetradapt/mesh/msh_reader.h"
@@ -14,7 +15,7 @@
 namespace tetradapt::mesh
 {
   TetMesh
-  read_volume_mesh(const std::string &file)
+  read_volume_mesh(const std::string &file, const core::Log &log)
   {
     const std::string ending = lower_case(std::filesystem::path(file).extension().string());
     TetMesh           mesh;
@@ -32,6 +33,7 @@ namespace tetradapt::mesh
         + (ending.empty() ? "no ending" : "the unknown ending '" + ending + "'")
         + "; .msh, .vtk, .vtu, .node, .ele and .face can be read.");
     finalize(mesh, "'" + file + "'");
+    check_embedding(mesh, "'" + file + "'", log);
     return mesh;
   }
 } // namespace tetradapt::mesh
