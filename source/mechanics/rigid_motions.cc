@@ -5,10 +5,6 @@
 #include "tetradapt/mesh/face_table.h"
 #include "tetradapt/mesh/mesh_checks.h"
 
-#include <deal.II/lac/full_matrix.h>
-#include <deal.II/lac/lapack_full_matrix.h>
-#include <deal.II/lac/vector.h>
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -25,7 +21,7 @@ namespace tetradapt::mechanics
     {
       Point<3>                             lower, upper;
       std::array<std::array<double, 6>, 6> gram{};
-      unsigned int                         n_prescribed = 0;
+      unsigned int                         n_prescribed = 0; ///< nodes
 
       Point<3>
       centre() const
@@ -33,6 +29,64 @@ namespace tetradapt::mechanics
         return lower + 0.5 * (upper - lower);
       }
     };
+
+    using Matrix6 = std::array<std::array<double, 6>, 6>;
+
+    /** Makes entry (p, q) of the symmetric @p a zero by a rotation of the two
+     * directions, and turns the columns of @p vectors along. */
+    void
+    rotate(Matrix6 &a, Matrix6 &vectors, const unsigned int p, const unsigned int q)
+    {
+      if (a[p][q] == 0.)
+        return;
+      const double theta = 0.5 * (a[q][q] - a[p][p]) / a[p][q];
+      // The smaller of the two angles; for a huge theta it is 1 / (2 theta).
+      const double t = std::copysign(1., theta) / (std::abs(theta) + std::hypot(theta, 1.));
+      const double c = 1. / std::hypot(t, 1.), s = t * c;
+      for (unsigned int k = 0; k < 6; ++k)
+        {
+          const double kp = a[k][p], kq = a[k][q];
+          a[k][p] = c * kp - s * kq;
+          a[k][q] = s * kp + c * kq;
+        }
+      for (unsigned int k = 0; k < 6; ++k)
+        {
+          const double pk = a[p][k], qk = a[q][k];
+          a[p][k] = c * pk - s * qk;
+          a[q][k] = s * pk + c * qk;
+        }
+      for (unsigned int k = 0; k < 6; ++k)
+        {
+          const double kp = vectors[k][p], kq = vectors[k][q];
+          vectors[k][p] = c * kp - s * kq;
+          vectors[k][q] = s * kp + c * kq;
+        }
+    }
+
+    /** The smallest eigenvalue of a symmetric matrix and its unit eigenvector, by
+     * Jacobi's cyclic rotations (Golub, Van Loan, Matrix Computations, section 8.5).
+     * LAPACK's search in an interval, which was used before, misses an eigenvalue that
+     * is zero with some implementations of BLAS: then a body that is not held passed. */
+    std::pair<double, std::array<double, 6>>
+    smallest_eigenpair(Matrix6 a)
+    {
+      Matrix6 vectors{};
+      for (unsigned int i = 0; i < 6; ++i)
+        vectors[i][i] = 1.;
+      // Convergence is quadratic: six sweeps are enough for rounding, ten are safe.
+      for (unsigned int sweep = 0; sweep < 10; ++sweep)
+        for (unsigned int p = 0; p < 6; ++p)
+          for (unsigned int q = p + 1; q < 6; ++q)
+            rotate(a, vectors, p, q);
+      unsigned int smallest = 0;
+      for (unsigned int i = 1; i < 6; ++i)
+        if (a[i][i] < a[smallest][smallest])
+          smallest = i;
+      std::array<double, 6> vector;
+      for (unsigned int k = 0; k < 6; ++k)
+        vector[k] = vectors[k][smallest];
+      return {a[smallest][smallest], vector};
+    }
 
     /** Smallest relative singular value that counts as held. A support of two
      * points a thousandth of the body apart passes. */
@@ -61,18 +115,14 @@ namespace tetradapt::mechanics
     void
     check_part(const Part &part, unsigned int n_parts)
     {
-      dealii::LAPACKFullMatrix<double> gram(6, 6);
-      for (unsigned int i = 0; i < 6; ++i)
-        for (unsigned int j = 0; j < 6; ++j)
-          gram(i, j) = part.gram[i][j] / std::max(1u, part.n_prescribed);
-      dealii::FullMatrix<double> vectors;
-      dealii::Vector<double>     values;
-      gram.compute_eigenvalues_symmetric(-1., 1e30, 0., values, vectors);
-      if (values[0] > held * held)
+      Matrix6 gram = part.gram;
+      for (auto &row : gram)
+        for (double &entry : row)
+          entry /= std::max(1u, part.n_prescribed);
+      const auto [value, motion] = smallest_eigenpair(gram);
+      // Also false for NaN.
+      if (value > held * held)
         return;
-      std::array<double, 6> motion;
-      for (unsigned int k = 0; k < 6; ++k)
-        motion[k] = vectors(k, 0);
       std::ostringstream message;
       message << "The supports do not hold ";
       if (n_parts > 1)

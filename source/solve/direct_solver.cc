@@ -10,6 +10,7 @@
 #include <suitesparse/cholmod.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <numeric>
 
@@ -17,12 +18,26 @@ namespace tetradapt::solve
 {
   namespace
   {
+    /** Smallest pivot, relative to its diagonal entry, of a matrix that is not singular to
+     * rounding. A body that is free to move has one of a few times 1e-16; a softness of
+     * 1e-12 times the rest of the body, or a body 1 000 times longer than thick, keep more. */
+    constexpr double smallest_pivot = 1e-14;
+
     [[noreturn]] void
     throw_singular()
     {
       throw core::NumericalError(
         "The direct solver could not factorise the stiffness matrix: it is singular to rounding. "
-        "Look for elements with almost no volume, or set Solver/Type = cg.");
+        "Either a part of the body is free to move, or there are elements with almost no volume, "
+        "or materials of very different stiffness. Add a support, or repair the mesh.");
+    }
+
+    [[noreturn]] void
+    throw_out_of_memory()
+    {
+      throw core::NumericalError("The direct solver has not enough memory to factorise the "
+                                 "stiffness matrix. Set Solver/Type = cg, or choose a coarser "
+                                 "mesh.");
     }
 
     /** Columns of the upper triangle, in the order of the unknowns' global numbers. */
@@ -83,12 +98,15 @@ namespace tetradapt::solve
       cholmod_l_finish(&common);
     }
 
-    /** Factorises; false if it is not positive definite. */
+    /** Factorises the matrix with its diagonal scaled to ones, so that pivots tell how many
+     * digits are left whatever the units. False if it is not positive definite to rounding. */
     bool
     factorise(const Triangle &triangle)
     {
-      const std::size_t n      = triangle.lengths.size();
-      cholmod_sparse   *matrix = cholmod_l_allocate_sparse(
+      const std::size_t n = triangle.lengths.size();
+      if (!find_scales(triangle))
+        return false;
+      cholmod_sparse *matrix = cholmod_l_allocate_sparse(
         n, n, triangle.rows.size(), /*sorted*/ 0, /*packed*/ 1, /*upper*/ 1, CHOLMOD_REAL, &common);
       if (matrix == nullptr)
         return false;
@@ -96,12 +114,17 @@ namespace tetradapt::solve
       begin[0]    = 0;
       std::partial_sum(triangle.lengths.begin(), triangle.lengths.end(), begin + 1);
       std::copy(triangle.rows.begin(), triangle.rows.end(), static_cast<std::int64_t *>(matrix->i));
-      std::copy(triangle.values.begin(), triangle.values.end(), static_cast<double *>(matrix->x));
+      auto *values = static_cast<double *>(matrix->x);
+      for (std::size_t column = 0, k = 0; column < n; ++column)
+        for (; k < static_cast<std::size_t>(begin[column + 1]); ++k)
+          values[k] = triangle.values[k] * scales[column] * scales[triangle.rows[k]];
       factor = cholmod_l_analyze(matrix, &common);
       if (factor != nullptr)
         cholmod_l_factorize(matrix, factor, &common);
       cholmod_l_free_sparse(&matrix, &common);
-      return factor != nullptr && common.status == CHOLMOD_OK && factor->minor == n;
+      // The largest pivot is one, so this is the smallest. False for NaN.
+      return factor != nullptr && common.status == CHOLMOD_OK && factor->minor == n
+             && cholmod_l_rcond(factor, &common) > smallest_pivot;
     }
 
     /** x becomes the solution for the right-hand side x; false without memory. */
@@ -111,18 +134,36 @@ namespace tetradapt::solve
       cholmod_dense *b = cholmod_l_allocate_dense(x.size(), 1, x.size(), CHOLMOD_REAL, &common);
       if (b == nullptr)
         return false;
-      std::copy(x.begin(), x.end(), static_cast<double *>(b->x));
+      for (std::size_t i = 0; i < x.size(); ++i)
+        static_cast<double *>(b->x)[i] = x[i] * scales[i];
       cholmod_dense *solution = cholmod_l_solve(CHOLMOD_A, factor, b, &common);
       const bool     solved   = solution != nullptr;
       if (solved)
-        std::copy_n(static_cast<const double *>(solution->x), x.size(), x.begin());
+        for (std::size_t i = 0; i < x.size(); ++i)
+          x[i] = static_cast<const double *>(solution->x)[i] * scales[i];
       cholmod_l_free_dense(&solution, &common);
       cholmod_l_free_dense(&b, &common);
       return solved;
     }
 
-    cholmod_common  common;
-    cholmod_factor *factor = nullptr;
+    /** The inverse roots of the diagonal; false if an entry is not positive. */
+    bool
+    find_scales(const Triangle &triangle)
+    {
+      const std::size_t n = triangle.lengths.size();
+      scales.assign(n, 0.);
+      for (std::size_t column = 0, k = 0; column < n; ++column)
+        for (std::int64_t i = 0; i < triangle.lengths[column]; ++i, ++k)
+          if (triangle.rows[k] == static_cast<std::int64_t>(column) && triangle.values[k] > 0.)
+            scales[column] = 1. / std::sqrt(triangle.values[k]);
+      return std::all_of(scales.begin(), scales.end(), [](const double s) {
+        return s > 0. && std::isfinite(s);
+      });
+    }
+
+    cholmod_common      common;
+    cholmod_factor     *factor = nullptr;
+    std::vector<double> scales;
   };
 
   DirectSolver::DirectSolver(const mechanics::BlockMatrix       &matrix,
@@ -131,8 +172,13 @@ namespace tetradapt::solve
       is_first_rank(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
   {
     const Triangle triangle = gather(own_columns(matrix), communicator);
-    const bool     good     = !is_first_rank || factors->factorise(triangle);
-    if (dealii::Utilities::MPI::min(good ? 1 : 0, communicator) == 0)
+    bool           good     = !is_first_rank || factors->factorise(triangle);
+    bool           fits     = !is_first_rank || factors->common.status != CHOLMOD_OUT_OF_MEMORY;
+    good                    = dealii::Utilities::MPI::min(good ? 1 : 0, communicator) == 1;
+    fits                    = dealii::Utilities::MPI::min(fits ? 1 : 0, communicator) == 1;
+    if (!fits)
+      throw_out_of_memory();
+    if (!good)
       throw_singular();
   }
 
@@ -146,7 +192,7 @@ namespace tetradapt::solve
     std::vector<double>       x    = all_gather_values(own, communicator);
     const bool                good = !is_first_rank || factors->solve(x);
     if (dealii::Utilities::MPI::min(good ? 1 : 0, communicator) == 0)
-      throw_singular();
+      throw_out_of_memory();
     MPI_Bcast(x.data(), static_cast<int>(x.size()), MPI_DOUBLE, 0, communicator);
     const auto first = right_hand_side.get_partitioner()->local_range().first;
     std::copy_n(x.begin() + first, n, solution.begin());

@@ -14,7 +14,8 @@ namespace tetradapt::solve
   {
   public:
     /** Factorises. Collective. @throws core::NumericalError if @p matrix is not positive
-     * definite to rounding. */
+     * definite, or if a pivot is below 1e-14 of its diagonal entry, so that nothing but
+     * rounding is left of it: a body that is free to move is never solved. */
     DirectSolver(const mechanics::BlockMatrix &matrix, const mechanics::DisplacementSpace &space);
     ~DirectSolver();
 
