@@ -35,6 +35,15 @@ namespace tetradapt::mechanics
     return names;
   }
 
+  void
+  require_linear(const ConstitutiveLaw &law, const scene::MaterialParameters &material)
+  {
+    if (!law.is_linear())
+      throw core::InputError("Materials/" + material.name + "/Law: '" + material.law
+                             + "' is not linear, and only linear laws can be solved. Choose "
+                               "a linear one, such as linear elastic.");
+  }
+
   std::unique_ptr<ConstitutiveLaw>
   make_law(const scene::MaterialParameters &parameters)
   {

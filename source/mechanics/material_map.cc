@@ -79,6 +79,7 @@ namespace tetradapt::mechanics
         if (everywhere)
           rest = material;
         const std::shared_ptr<ConstitutiveLaw> law = make_law(*material);
+        require_linear(*law, *material);
         for (const int region : resolve_regions(
                material->regions, material->region_groups, mesh, "Materials/" + material->name))
           {

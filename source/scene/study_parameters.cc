@@ -23,11 +23,12 @@ namespace tetradapt::scene
       binder("Maximum iterations",
              p.max_iterations,
              count_codec(),
-             "Iterations after which the run fails.");
+             "Iterations in all after which the run fails (automatic: up to 150 000 unknowns the "
+             "direct solver takes over).");
       binder("Direct limit",
              p.direct_limit,
              count_codec(),
-             "automatic: largest number of unknowns for the direct solver.");
+             "automatic: largest number of unknowns for the direct solver from the start.");
       binder("Stopping",
              p.stopping,
              word_codec<SolverParameters::Stopping>(),

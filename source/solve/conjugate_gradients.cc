@@ -70,6 +70,17 @@ namespace tetradapt::solve
       const double more = 2. * std::log(limits.residual / result.residual) / std::log(*rate);
       return result.iterations + static_cast<unsigned int>(std::min(1e6, std::ceil(more)));
     }
+
+    bool
+    is_hopeless(const IterationResult     &result,
+                const IterationLimits     &limits,
+                const EnergyErrorEstimate &estimate)
+    {
+      // Looked at now and then only: the rate sums over all steps.
+      return limits.give_up_from > 0 && result.iterations >= limits.give_up_from
+             && result.iterations % 10 == 0
+             && foretell(result, limits, estimate) > limits.max_iterations;
+    }
   } // namespace
 
   IterationResult
@@ -95,7 +106,7 @@ namespace tetradapt::solve
     const double first_residual = result.residual;
     result.converged            = result.residual <= limits.residual;
     double energy               = 0.; // (r, z)
-    while (!result.converged && result.iterations < limits.max_iterations
+    while (!result.converged && !result.gave_up && result.iterations < limits.max_iterations
            && std::isfinite(result.residual))
       {
         preconditioner.vmult(preconditioned, residual);
@@ -119,6 +130,7 @@ namespace tetradapt::solve
         ++result.iterations;
         estimate.add(alpha * energy);
         result.converged = is_done(limits, result.residual, estimate);
+        result.gave_up   = !result.converged && is_hopeless(result, limits, estimate);
 
         std::ostringstream text;
         text << "conjugate gradients, iteration " << result.iterations

@@ -25,6 +25,11 @@ namespace tetradapt::solve
     /** Iterations in vain after which a preconditioner in single precision is suspected. */
     constexpr unsigned int patience = 200;
 
+    /** Where a factorisation can take over: the iteration from which a prediction of the
+     * remaining ones counts, and the largest number of unknowns. */
+    constexpr unsigned int  prediction_from       = 100;
+    constexpr unsigned long most_factorised_later = 150000;
+
     bool
     is_direct(const scene::SolverParameters &parameters, unsigned long n_dofs)
     {
@@ -199,7 +204,7 @@ namespace tetradapt::solve
     limits.residual       = tolerance * norm;
     limits.error          = stop.algebraic_error;
     limits.relative_error = stop.relative_error;
-    limits.max_iterations = parameters.max_iterations;
+    limits.give_up_from   = can_factorise_instead() ? prediction_from : 0;
     LinearResult result{0, 0, 0., description};
     double       gained = 0.;
     // The residual's norm is ruled by stiff and by flat elements. So it may be small
@@ -207,6 +212,7 @@ namespace tetradapt::solve
     // smaller.
     for (double excess = 2.; excess > 1.;)
       {
+        limits.max_iterations = parameters.max_iterations - result.iterations; // in total
         IterationResult step
           = conjugate_gradients(matrix(), *preconditioner, right_hand_side, limits, log, x);
         result.iterations += step.iterations;
@@ -214,12 +220,19 @@ namespace tetradapt::solve
           = result.iterations + step.iterations_to_residual - step.iterations;
         result.algebraic_error = step.error;
         // Elements with almost no volume can be too much for single precision.
-        if (!step.converged && is_single && (step.broke_down || step.iterations >= patience))
+        if (!step.converged && is_single && result.iterations < parameters.max_iterations
+            && (step.broke_down || step.gave_up || step.iterations >= patience))
           {
             log.progress("building the preconditioner in double precision");
             precondition_in_double();
             gained += step.gained;
             continue;
+          }
+        if (!step.converged && can_factorise_instead())
+          {
+            factorise_instead(result.iterations);
+            direct->solve(right_hand_side, x);
+            return {0, 0, 0., "direct (Cholesky), since conjugate gradients did not converge"};
           }
         if (!step.converged)
           fail(result.iterations, step.residual / limits.residual);
@@ -229,9 +242,29 @@ namespace tetradapt::solve
         step.gained = gained;
         excess = hidden_error(step, stop, right_hand_side, x) / (error_by_residual * tolerance);
         limits.residual = std::min(limits.residual, step.residual) / std::max(2., 2. * excess);
-        limits.max_iterations = parameters.max_iterations - result.iterations;
       }
     return result;
+  }
+
+  bool
+  LinearSolver::can_factorise_instead() const
+  {
+    return parameters.type == scene::SolverParameters::Type::automatic
+           && space.n_dofs() <= most_factorised_later;
+  }
+
+  void
+  LinearSolver::factorise_instead(const unsigned int iterations) const
+  {
+    log.warning("Conjugate gradients were given up after " + std::to_string(iterations)
+                + " iterations, since they converge too slowly: elements are very flat or long, "
+                  "or materials differ very much in stiffness. The direct solver takes over.");
+    log.progress("factorising");
+    direct = std::make_unique<DirectSolver>(
+      assembled != nullptr ? assembled->matrix
+                           : mechanics::assemble(space, model.tangents, prescribed).matrix,
+      space);
+    preconditioner.reset();
   }
 
   void

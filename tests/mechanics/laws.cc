@@ -100,9 +100,31 @@ namespace
     check("none without temperatures", !mechanics::MaterialMap(scene, body).has_thermal_strain());
   }
 
+  /** A law that one linear solve cannot deal with. */
+  class Stiffening : public mechanics::LinearElastic
+  {
+  public:
+    Stiffening() : LinearElastic(1., 0.3)
+    {
+    }
+    bool
+    is_linear() const override
+    {
+      return false;
+    }
+  };
+
   void
   refusals(const mesh::TetMesh &body)
   {
+    print_refusal("linear law", [] {
+      mechanics::require_linear(mechanics::LinearElastic(1., 0.3), material("a", 1., 0.3));
+    });
+    print_refusal("law that is not linear", [] {
+      auto m = material("a", 1., 0.3);
+      m.law  = "stiffening";
+      mechanics::require_linear(Stiffening(), m);
+    });
     const auto with = [&](const std::vector<scene::MaterialParameters> &materials) {
       scene::Scene scene;
       scene.materials = materials;

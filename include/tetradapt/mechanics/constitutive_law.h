@@ -86,6 +86,15 @@ namespace tetradapt::mechanics
   std::unique_ptr<ConstitutiveLaw>
   make_law(const scene::MaterialParameters &parameters);
 
+  /**
+   * Refuses a law that one linear solve cannot deal with: it would be solved with its
+   * tangent at rest, which is another problem, without a word.
+   * @param material names the material in the message.
+   * @throws core::InputError if the law is not linear.
+   */
+  void
+  require_linear(const ConstitutiveLaw &law, const scene::MaterialParameters &material);
+
   /** Names that make_law() knows. */
   std::vector<std::string>
   law_names();

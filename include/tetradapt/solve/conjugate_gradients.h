@@ -68,13 +68,18 @@ namespace tetradapt::solve
     double       error          = 0.; ///< energy norm, estimated; 0: does not count
     double       relative_error = 0.; ///< relative to all gains, the norm of x from zero on
     unsigned int max_iterations = 0;
+    /** From this iteration on, end where the residual is predicted to need more than
+     * max_iterations; 0: go on to max_iterations whatever the prediction. */
+    unsigned int give_up_from = 0;
   };
 
   struct IterationResult
   {
     bool converged = false;
     /** The preconditioner or the matrix was not positive, to rounding. */
-    bool         broke_down = false;
+    bool broke_down = false;
+    /** Ended early by IterationLimits::give_up_from. */
+    bool         gave_up    = false;
     unsigned int iterations = 0;
     double       residual   = 0.; ///< l2 norm
     double       error      = 0.; ///< estimated energy norm; 0: unknown

@@ -7,8 +7,8 @@
 #include "tetradapt/scene/study_parameters.h"
 #include "tetradapt/solve/conjugate_gradients.h"
 #include "tetradapt/solve/direct_solver.h"
-
 #include "tetradapt/solve/preconditioners.h"
+
 #include <functional>
 
 namespace tetradapt::solve
@@ -70,6 +70,9 @@ namespace tetradapt::solve
      * when that is reached (no residual tells when: that of a slender body's
      * bending is larger than the load for errors of a percent). Collective.
      * @param load is what to call the right-hand side in messages: "The loads".
+     * Where the solver is chosen automatically and conjugate gradients do not converge, or
+     * are predicted to need more than the allowed iterations, the matrix is factorised after
+     * all, up to 150 000 unknowns, and a warning says so.
      * @throws core::NumericalError if it does not converge.
      */
     LinearResult
@@ -109,6 +112,11 @@ namespace tetradapt::solve
                  const Vector          &x) const;
     [[noreturn]] void
     fail(unsigned int iterations, double excess) const;
+    /** Whether a factorisation may replace conjugate gradients that do not converge. */
+    bool
+    can_factorise_instead() const;
+    void
+    factorise_instead(unsigned int iterations) const;
 
     LinearModel                                             model;
     const mechanics::DisplacementSpace                     &space;
@@ -122,7 +130,8 @@ namespace tetradapt::solve
     mutable std::unique_ptr<mechanics::DisplacementSpace> coarse_space; ///< of p-multigrid
     mutable std::unique_ptr<Preconditioner>               preconditioner;
     mutable bool                                          is_single = false;
-    std::unique_ptr<DirectSolver>                         direct;
+    /** From the beginning, or made when conjugate gradients failed. */
+    mutable std::unique_ptr<DirectSolver> direct;
   };
 } // namespace tetradapt::solve
 
