@@ -20,7 +20,7 @@ namespace tetradapt::adapt
                                           scene.mesh.projection
                                             != scene::MeshParameters::Projection::none))
   {
-    core::on_first_rank(communicator, [&]() { projection = mesh::make_projection(scene.mesh); });
+    core::on_first_rank(communicator, [&]() { projection = mesh::make_projection(scene); });
   }
 
   NewMesh

@@ -33,7 +33,7 @@ namespace tetradapt::cli
                                                    mesh::make_mesh(scene, number, core::Log()));
           return;
         }
-      const auto projection = mesh::make_projection(mesh);
+      const auto projection = mesh::make_projection(scene);
       for (const std::string &file : mesh.files)
         if (mesh.source == scene::MeshSource::surface)
           geometry::check_surface(geometry::read_surface(file), file);

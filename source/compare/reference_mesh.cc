@@ -8,6 +8,9 @@
 #include "tetradapt/mesh/size_function.h"
 #include "tetradapt/mesh/volume_reader.h"
 
+#include <cmath>
+#include <sstream>
+
 namespace tetradapt::compare
 {
   namespace
@@ -20,7 +23,7 @@ namespace tetradapt::compare
       quality.radius_edge_ratio          = parameters.radius_edge_ratio;
       quality.dihedral_angle             = parameters.dihedral_angle;
       // A reference of the same body must have the same boundary.
-      const auto         projection = mesh::make_projection(scene.mesh);
+      const auto         projection = mesh::make_projection(scene);
       const mesh::Tetgen tetgen(mesh::quality_for_projection(quality, projection != nullptr));
       log.progress("reference: TetGen refines the initial mesh");
       mesh::TetMesh mesh        = initial_mesh;
@@ -50,6 +53,28 @@ namespace tetradapt::compare
                     "coarser than asked for. Raise the limit.");
       return mesh;
     }
+
+    /** Warns where the two meshes are not held or loaded on the same area. */
+    void
+    compare_selections(const mesh::TetMesh &initial_mesh,
+                       const mesh::TetMesh &reference,
+                       const core::Log     &log)
+    {
+      constexpr double same_area = 1e-3;
+      auto             areas     = mesh::selected_areas(reference);
+      for (const auto &[name, area] : mesh::selected_areas(initial_mesh))
+        {
+          const auto found = areas.find(name);
+          if (found == areas.end() || std::abs(found->second - area) <= same_area * area)
+            continue;
+          std::ostringstream text;
+          text << name << " selects an area of " << found->second
+               << " on the reference's mesh, but of " << area
+               << " on the scene's first mesh. The error measured includes the difference ("
+               << 100. * (found->second / area - 1.) << " %).";
+          log.warning(text.str());
+        }
+    }
   } // namespace
 
   mesh::TetMesh
@@ -63,7 +88,8 @@ namespace tetradapt::compare
       = parameters.route == scene::ReferenceParameters::MeshRoute::bricks
           ? mesh::bricks(scene.mesh.lower_corner, scene.mesh.upper_corner, parameters.cells)
           : mesh::read_volume_mesh(parameters.file, log);
-    mesh::select_faces(mesh, mesh::face_selectors(scene));
+    mesh::report_straddled(mesh::select_faces(mesh, mesh::face_selectors(scene)), log);
+    compare_selections(initial_mesh, mesh, log);
     return mesh;
   }
 } // namespace tetradapt::compare

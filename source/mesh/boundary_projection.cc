@@ -2,10 +2,13 @@
 #include "tetradapt/mesh/boundary_projection.h"
 
 #include "curved_surface.h"
+#include "selection_borders.h"
 
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/geometry/surface_checks.h"
 #include "tetradapt/geometry/surface_io.h"
+#include "tetradapt/mesh/mesh_factory.h"
+#include "tetradapt/mesh/selection_cuts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -107,14 +110,18 @@ namespace tetradapt::mesh
     struct Place
     {
       std::vector<const CurvedSurface *> surfaces;
+      std::vector<const CurvedSurface *> borders;     ///< of selections
       std::vector<Tensor<1, 3>>          planes;      ///< normals of flat faces
       double                             length = 0.; ///< of the longest boundary edge
     };
   } // namespace
 
-  BoundaryProjection::BoundaryProjection(const scene::MeshParameters &parameters)
-    : feature_angle(parameters.feature_angle)
+  BoundaryProjection::BoundaryProjection(const scene::Scene &scene)
+    : feature_angle(scene.mesh.feature_angle),
+      borders(std::make_unique<SelectionBorders>(
+        borders_are_cut(scene.mesh) ? face_selectors(scene) : decltype(face_selectors(scene))()))
   {
+    const scene::MeshParameters &parameters = scene.mesh;
     if (parameters.projection == Projection::surface)
       {
         const bool own     = parameters.projection_file.empty();
@@ -134,6 +141,9 @@ namespace tetradapt::mesh
   void
   BoundaryProjection::assign(TetMesh &mesh) const
   {
+    const auto of_patch = surfaces_of_patches(mesh, surfaces);
+    if (std::any_of(of_patch.begin(), of_patch.end(), [](const auto s) { return s != none; }))
+      return;
     // Patch p on surface s becomes entry (p, s) of a table; those that occur are kept.
     const unsigned int        n = surfaces.size() + 1;
     std::vector<unsigned int> number(mesh.patches.size() * n, none);
@@ -212,6 +222,11 @@ namespace tetradapt::mesh
     std::vector<unsigned char> n_sharp;
     if (with_creases)
       n_sharp = count_sharp_edges(mesh, feature_angle);
+    const auto on_borders = borders->through_points(mesh, feature_angle);
+    for (unsigned int i = 0; i < points.size(); ++i)
+      if (const auto found = on_borders.find(points[i]); found != on_borders.end())
+        places[i].borders = found->second;
+
     std::vector<PointMove> moves;
     unsigned long          n_lost = 0;
     for (unsigned int i = 0; i < points.size(); ++i)
@@ -221,15 +236,20 @@ namespace tetradapt::mesh
         std::optional<Point<3>> target;
         if (with_creases && n_sharp[points[i]] > 0)
           {
-            // Ends and branches of sharp edges are points of the first mesh.
-            if (n_sharp[points[i]] != 2)
+            // Ends and branches of sharp edges are points of the first mesh, and so is where
+            // they cross the border of a selection.
+            if (n_sharp[points[i]] != 2 || !place.borders.empty())
               continue;
             target = place.surfaces.front()->nearest_on_crease(here);
             if (target && target->distance(here) > 0.5 * place.length)
               target.reset();
           }
         if (!target)
-          target = find_foot(here, place.surfaces, place.planes, place.length);
+          {
+            auto all = place.surfaces;
+            all.insert(all.end(), place.borders.begin(), place.borders.end());
+            target = find_foot(here, all, place.planes, place.length);
+          }
         if (!target)
           ++n_lost;
         else if (target->distance(here) > worth_it * place.length)
@@ -247,11 +267,10 @@ namespace tetradapt::mesh
   }
 
   std::unique_ptr<BoundaryProjection>
-  make_projection(const scene::MeshParameters &parameters)
+  make_projection(const scene::Scene &scene)
   {
-    return parameters.projection == Projection::none
-             ? nullptr
-             : std::make_unique<BoundaryProjection>(parameters);
+    return scene.mesh.projection == Projection::none ? nullptr
+                                                     : std::make_unique<BoundaryProjection>(scene);
   }
 
   scene::TetgenParameters

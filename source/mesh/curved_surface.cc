@@ -65,6 +65,14 @@ namespace tetradapt::mesh
   LocalPlane
   ZeroSet::plane_near(const Point<3> &point, double length) const
   {
+    return plane_of_zero_set([this](const Point<3> &p) { return function(p); }, point, length);
+  }
+
+  LocalPlane
+  plane_of_zero_set(const std::function<double(const Point<3> &)> &function,
+                    const Point<3>                                &point,
+                    const double                                   length)
+  {
     const double value = function(point);
     Tensor<1, 3> gradient;
     for (unsigned int d = 0; d < 3; ++d)

@@ -5,6 +5,7 @@
 #include "tetradapt/core/expression.h"
 #include "tetradapt/geometry/nearest_surface.h"
 
+#include <functional>
 #include <optional>
 
 namespace tetradapt::mesh
@@ -18,6 +19,13 @@ namespace tetradapt::mesh
     double       distance = 0.; ///< of the point from it, with a sign
     Tensor<1, 3> normal;        ///< of length 1; zero if there is none
   };
+
+  /** The plane that a function's zero set looks like from @p point, by differences over a part
+   * of @p length. */
+  LocalPlane
+  plane_of_zero_set(const std::function<double(const Point<3> &)> &function,
+                    const Point<3>                                &point,
+                    double                                         length);
 
   /** A part of a body's true boundary. */
   class CurvedSurface

@@ -9,11 +9,13 @@
 #include "tetradapt/mesh/bricks.h"
 #include "tetradapt/mesh/plc.h"
 #include "tetradapt/mesh/selection.h"
+#include "tetradapt/mesh/selection_cuts.h"
 #include "tetradapt/mesh/size_function.h"
 #include "tetradapt/mesh/tetgen.h"
 #include "tetradapt/mesh/volume_reader.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 namespace tetradapt::mesh
@@ -67,17 +69,61 @@ namespace tetradapt::mesh
       throw core::InputError(text.str());
     }
 
+    /** The edge length that is wanted at a point of the body: by Mesh/Size, by the bound on
+     * volumes, and a tenth of the body at most. */
+    std::function<double(const Point<3> &)>
+    wanted_size(const scene::MeshParameters  &parameters,
+                const PiecewiseLinearComplex &plc,
+                const double                  max_volume)
+    {
+      TetMesh points;
+      points.points             = plc.points;
+      const auto [lower, upper] = bounding_box(points);
+      double size               = 0.1 * lower.distance(upper);
+      // The edge of a regular tetrahedron.
+      if (max_volume > 0.)
+        size = std::min(size, std::cbrt(6. * std::sqrt(2.) * max_volume));
+      if (parameters.size.empty())
+        return [size](const Point<3> &) { return size; };
+      return [size, wanted = core::Expression(parameters.size, "Mesh/Size")](const Point<3> &p) {
+        return std::min(size, wanted(p));
+      };
+    }
+
+    /** The mesh of a body whose selections are cut into its surface. */
     TetMesh
-    unselected_mesh(const scene::Scene       &scene,
-                    unsigned int              number,
-                    const BoundaryProjection *projection,
-                    const core::Log          &log)
+    mesh_with_selections(const scene::Scene           &scene,
+                         const PiecewiseLinearComplex &plc,
+                         const Sizing                 &sizing,
+                         const BoundaryProjection     *projection,
+                         const core::Log              &log)
+    {
+      const auto selectors = face_selectors(scene);
+      const auto size      = wanted_size(scene.mesh, plc, sizing.max_volume);
+      // Corners of the pieces of a facet do not lie on the surface that the facet's lie on.
+      const bool assign_first
+        = projection != nullptr
+          && with_selections(plc, selectors, size, core::Log()).points.size() != plc.points.size();
+      const auto whole
+        = assign_first ? with_split_patches(plc, [&](TetMesh &faces) { projection->assign(faces); })
+                       : plc;
+      const auto    cut = with_selections(whole, selectors, size, log);
+      TetgenReport  report;
+      const TetMesh mesh = Tetgen(scene.tetgen).mesh(cut, sizing, &report);
+      warn_of_unmet_wishes(report, log);
+      return mesh;
+    }
+
+    TetMesh
+    first_mesh(const scene::Scene       &scene,
+               unsigned int              number,
+               const BoundaryProjection *projection,
+               const core::Log          &log)
     {
       const scene::MeshParameters &parameters = scene.mesh;
       Sizing                       sizing;
       if (!parameters.volume_bounds.empty())
         sizing.max_volume = entry(parameters.volume_bounds, number);
-      const Tetgen tetgen(scene.tetgen);
       switch (parameters.source)
         {
         case scene::MeshSource::bricks:
@@ -85,28 +131,25 @@ namespace tetradapt::mesh
                         parameters.upper_corner,
                         entry(parameters.cells, number));
         case scene::MeshSource::box:
+          return mesh_with_selections(scene,
+                                      box_complex(parameters.lower_corner, parameters.upper_corner),
+                                      sizing,
+                                      projection,
+                                      log);
         case scene::MeshSource::blocks:
-          {
-            TetgenReport  report;
-            const TetMesh mesh
-              = tetgen.mesh(parameters.source == scene::MeshSource::box
-                              ? box_complex(parameters.lower_corner, parameters.upper_corner)
-                              : blocks_complex(BlockGrid(parameters.blocks),
-                                               parameters.block_regions),
-                            sizing,
-                            &report);
-            warn_of_unmet_wishes(report, log);
-            return mesh;
-          }
+          return mesh_with_selections(scene,
+                                      blocks_complex(BlockGrid(parameters.blocks),
+                                                     parameters.block_regions),
+                                      sizing,
+                                      projection,
+                                      log);
         case scene::MeshSource::surface:
           {
             const std::string &file    = entry(parameters.files, number);
             const auto         surface = load_surface(parameters, file, log);
             log.progress("TetGen meshes the surface");
-            TetgenReport  report;
-            const TetMesh mesh = tetgen.mesh(surface_complex(surface, file), sizing, &report);
-            warn_of_unmet_wishes(report, log);
-            return mesh;
+            return mesh_with_selections(
+              scene, surface_complex(surface, file), sizing, projection, log);
           }
         case scene::MeshSource::file:
           {
@@ -119,7 +162,7 @@ namespace tetradapt::mesh
             if (sizing.max_volume <= 0.)
               return mesh;
             TetgenReport  report;
-            const TetMesh refined = tetgen.refine(mesh, sizing, &report);
+            const TetMesh refined = Tetgen(scene.tetgen).refine(mesh, sizing, &report);
             warn_of_unmet_wishes(report, log);
             return refined;
           }
@@ -158,8 +201,8 @@ namespace tetradapt::mesh
   TetMesh
   make_mesh(const scene::Scene &scene, unsigned int number, const core::Log &log)
   {
-    const auto projection = make_projection(scene.mesh);
-    TetMesh    mesh       = unselected_mesh(scene, number, projection.get(), log);
+    const auto projection = make_projection(scene);
+    TetMesh    mesh       = first_mesh(scene, number, projection.get(), log);
     check_extent(mesh);
     if (projection != nullptr)
       {
@@ -181,7 +224,9 @@ namespace tetradapt::mesh
                       + std::to_string(report.oversized_cells)
                       + " tetrahedra are larger than asked for.");
       }
-    select_faces(mesh, face_selectors(scene));
+    // What was cut has its selections from its surface.
+    if (!borders_are_cut(scene.mesh))
+      report_straddled(select_faces(mesh, face_selectors(scene)), log);
     return mesh;
   }
 } // namespace tetradapt::mesh

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/mesh/selection.h"
 
-#include "tetradapt/core/condition.h"
+#include "face_test.h"
+
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/mesh/mesh_checks.h"
 #include "tetradapt/scene/nearest_names.h"
 
 #include <algorithm>
-#include <memory>
 #include <set>
+#include <sstream>
 
 namespace tetradapt::mesh
 {
@@ -85,66 +86,12 @@ namespace tetradapt::mesh
 
 
 
-    /** Whether expressions hold at the corners of faces, each corner asked once. */
-    class FaceTest
-    {
-    public:
-      FaceTest(const TetMesh &mesh, const scene::Selector &selector, const std::string &name)
-        : mesh(mesh), in_list(mesh.patches.size(),
-                              selector.ids.empty() && selector.groups.empty() ? true : false)
-      {
-        for (unsigned int p = 0; p < mesh.patches.size(); ++p)
-          if (std::count(selector.ids.begin(), selector.ids.end(), mesh.patches[p].boundary_id) > 0
-              || std::count(selector.groups.begin(), selector.groups.end(), mesh.patches[p].name)
-                   > 0)
-            in_list[p] = true;
-        if (!selector.where.empty())
-          {
-            expression = std::make_unique<core::Condition>(selector.where, name + "/Where");
-            holds_at.assign(mesh.n_points(), unknown);
-          }
-      }
-
-      bool
-      selects(const BoundaryFace &face)
-      {
-        if (!in_list[face.patch])
-          return false;
-        if (!expression)
-          return true;
-        for (const unsigned int v : face.vertices)
-          {
-            if (holds_at[v] == unknown)
-              holds_at[v] = expression->holds(mesh.points[v]) ? yes : no;
-            if (holds_at[v] == no)
-              return false;
-          }
-        // In this form the centroid lies exactly in a plane x = const with its face.
-        const Point<3> &p = mesh.points[face.vertices[0]];
-        return expression->holds(
-          p + ((mesh.points[face.vertices[1]] - p) + (mesh.points[face.vertices[2]] - p)) / 3.);
-      }
-
-    private:
-      enum : char
-      {
-        unknown,
-        yes,
-        no
-      };
-      const TetMesh                   &mesh;
-      std::vector<bool>                in_list; ///< per patch
-      std::unique_ptr<core::Condition> expression;
-      std::vector<char>                holds_at; ///< per point
-    };
-
-
-
     [[noreturn]] void
     refuse_empty(const TetMesh         &mesh,
                  const std::string     &name,
                  const scene::Selector &selector,
-                 const Choice          &choice)
+                 const Choice          &choice,
+                 const FaceRule         rule)
     {
       const auto [lower, upper] = bounding_box(mesh);
       std::string among;
@@ -153,17 +100,40 @@ namespace tetradapt::mesh
       if (!selector.groups.empty())
         among += (among.empty() ? " in group " : " or in group ") + join(selector.groups);
       throw core::InputError(
-        name + " selects no face of the boundary: '" + selector.where
-        + "' does not hold at the three corners and the centroid of any face" + among
-        + ". The mesh extends from " + to_string(lower) + " to " + to_string(upper) + ". "
-        + choice.text() + " Correct the expression; leave room for rounding, as in 'x < 1e-9'.");
+        name + " selects no face of the boundary: '" + selector.where + "' does not hold at "
+        + (rule == FaceRule::whole ? "the three corners and the centroid of" : "the centroid of")
+        + " any face" + among + ". The mesh extends from " + to_string(lower) + " to "
+        + to_string(upper) + ". " + choice.text()
+        + " Correct the expression; leave room for rounding, as in 'x < 1e-9'.");
+    }
+    void
+    add_face(const TetMesh      &mesh,
+             const BoundaryFace &face,
+             const bool          is_selected,
+             FaceTest           &test,
+             SelectedFaces      &found)
+    {
+      const double area = face_area_vector(mesh, face).norm();
+      if (is_selected)
+        {
+          ++found.n_faces;
+          found.area += area;
+        }
+      if (!test.is_straddled(face))
+        return;
+      const double share = test.share(face);
+      found.n_straddled += share > 0. && share < 1. ? 1 : 0;
+      found.uncertain_area += (is_selected ? 1. - share : share) * area;
+      found.excess_area += ((is_selected ? 1. : 0.) - share) * area;
     }
   } // namespace
 
 
 
   std::vector<SelectedFaces>
-  select_faces(TetMesh &mesh, const std::vector<std::pair<std::string, scene::Selector>> &selectors)
+  select_faces(TetMesh                                                    &mesh,
+               const std::vector<std::pair<std::string, scene::Selector>> &selectors,
+               const FaceRule                                              rule)
   {
     const Choice                   choice(mesh);
     std::vector<SelectedFaces>     result;
@@ -173,17 +143,16 @@ namespace tetradapt::mesh
       {
         const auto &[name, selector] = selectors[s];
         check_lists(name, selector, choice);
-        FaceTest      test(mesh, selector, name);
-        SelectedFaces found{name, 0, 0.};
+        FaceTest      test(mesh, selector, name, rule);
+        SelectedFaces found;
+        found.name = name;
         for (unsigned int f = 0; f < mesh.faces.size(); ++f)
-          if (test.selects(mesh.faces[f]))
-            {
-              selected[f][s] = true;
-              ++found.n_faces;
-              found.area += face_area_vector(mesh, mesh.faces[f]).norm();
-            }
+          {
+            selected[f][s] = test.selects(mesh.faces[f]);
+            add_face(mesh, mesh.faces[f], selected[f][s], test, found);
+          }
         if (found.n_faces == 0)
-          refuse_empty(mesh, name, selector, choice);
+          refuse_empty(mesh, name, selector, choice, rule);
         result.push_back(found);
       }
 
@@ -205,5 +174,40 @@ namespace tetradapt::mesh
       mesh.faces[f].patch = combinations.at({mesh.faces[f].patch, selected[f]});
     mesh.patches = std::move(patches);
     return result;
+  }
+
+  void
+  report_straddled(const std::vector<SelectedFaces> &found, const core::Log &log)
+  {
+    constexpr double worth_a_warning = 0.01;
+    for (const SelectedFaces &selection : found)
+      {
+        if (selection.n_straddled == 0)
+          continue;
+        const double       right = selection.area - selection.excess_area;
+        const double       share = selection.uncertain_area / std::max(selection.area, right);
+        std::ostringstream text;
+        text << selection.name << ": the border of what it selects runs through "
+             << selection.n_straddled
+             << " faces of the mesh, which it selects as a whole or not at all: an area of "
+             << selection.area << " is selected, the expression holds on " << right << "; "
+             << 100. * share << " % of the area is wrong.";
+        if (share > worth_a_warning)
+          log.warning(text.str()
+                      + " Make the mesh follow the border, or use Mesh/Type = box, blocks or "
+                        "surface, where it is cut into the surface.");
+        else
+          log.info(text.str());
+      }
+  }
+
+  std::map<std::string, double>
+  selected_areas(const TetMesh &mesh)
+  {
+    std::map<std::string, double> areas;
+    for (const BoundaryFace &face : mesh.faces)
+      for (const std::string &name : mesh.patches[face.patch].selections)
+        areas[name] += face_area_vector(mesh, face).norm();
+    return areas;
   }
 } // namespace tetradapt::mesh

@@ -41,8 +41,8 @@ namespace tetradapt::scene
       binder("Groups", p.selector.groups, names_codec(), "Names of such groups of faces.");
       binder("Where",
              p.selector.where,
-             text_codec("an expression in x, y, z, or nothing"),
-             "Expression that must also hold, at the corners and the centre of a face.");
+             text_codec("a condition in x, y, z, or nothing"),
+             "Condition that must also hold on the faces, as for supports and loads.");
       binder("Displacement weight",
              p.displacement_weight,
              expressions_codec<3>(true),

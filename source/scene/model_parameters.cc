@@ -56,9 +56,12 @@ namespace tetradapt::scene
              "if its id or its group is listed, or if neither list is given.");
       binder("Where",
              selector.where,
-             text_codec("an expression in x, y, z, or nothing"),
-             "Expression in x, y, z that must also hold, at the corners and the centre of a "
-             "face, such as x < 1e-9.");
+             text_codec("a condition in x, y, z, or nothing"),
+             "Condition in x, y, z that must also hold, such as x < 1e-9: comparisons and "
+             "box(x0,y0,z0, x1,y1,z1), sphere(x,y,z, r), cylinder(x0,y0,z0, x1,y1,z1, r), "
+             "half_space(x,y,z, nx,ny,nz), combined by &&, || and !. Its border is cut into the "
+             "surface of a box, blocks or a surface file; faces of other meshes are selected as a "
+             "whole, if it holds at their corners and centre.");
     }
 
     void

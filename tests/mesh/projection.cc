@@ -157,16 +157,17 @@ namespace
 int
 main()
 {
-  scene::MeshParameters parameters;
-  parameters.source               = scene::MeshSource::file;
-  parameters.projection           = scene::MeshParameters::Projection::expression;
-  parameters.projection_functions = {"x^2+y^2+z^2-1", "x^2+y^2+z^2-4"};
-  test_sphere(*mesh::make_projection(parameters));
+  scene::Scene           scene;
+  scene::MeshParameters &parameters = scene.mesh;
+  parameters.source                 = scene::MeshSource::file;
+  parameters.projection             = scene::MeshParameters::Projection::expression;
+  parameters.projection_functions   = {"x^2+y^2+z^2-1", "x^2+y^2+z^2-4"};
+  test_sphere(*mesh::make_projection(scene));
   parameters.projection_functions = {"x^2+y^2+z^2-1", "z-7"};
   try
     {
       TetMesh mesh = mesh::read_volume_mesh(SOURCE_DIR "/../../meshes/sphere_octant.msh");
-      mesh::make_projection(parameters)->assign(mesh);
+      mesh::make_projection(scene)->assign(mesh);
     }
   catch (const std::exception &error)
     {

@@ -3,7 +3,7 @@
 #define tetradapt_mesh_boundary_projection_h
 
 #include "tetradapt/mesh/point_moves.h"
-#include "tetradapt/scene/mesh_parameters.h"
+#include "tetradapt/scene/scene.h"
 
 #include <functional>
 #include <memory>
@@ -11,6 +11,7 @@
 namespace tetradapt::mesh
 {
   class CurvedSurface;
+  class SelectionBorders;
 
   /**
    * Keeps the boundary of a mesh on the true surface of the body, a fine triangulated
@@ -22,7 +23,8 @@ namespace tetradapt::mesh
    *
    * Where a point goes: with minimal change onto all surfaces that its faces lie on,
    * by Newton's method on their (numerical) gradients; faces that lie on none keep their
-   * planes. A point where two surfaces meet so stays on both. On a triangulated
+   * planes. A point where two surfaces meet so stays on both, and one on the border of a
+   * selection (see SelectionBorders) goes to border and surface. On a triangulated
    * surface, points of a mesh edge that bends by more than Mesh/Feature angle go to the
    * surface's own sharp edges. A point stays where it is if it would have to go farther
    * than its longest boundary edge is long (the mesh cuts off a detail that it cannot
@@ -33,14 +35,15 @@ namespace tetradapt::mesh
   public:
     /** @throws InputError if the surface cannot be read, is not closed, or a function
      *         does not parse. */
-    explicit BoundaryProjection(const scene::MeshParameters &parameters);
+    explicit BoundaryProjection(const scene::Scene &scene);
     ~BoundaryProjection();
 
     /**
      * Splits patches so that each lies on one surface or on none. A face lies on the
      * first surface from which its corners are within a hundredth of its longest edge,
      * and whose normal is within 60 degrees of its own; where the mesh was made
-     * from the surface itself, every face does.
+     * from the surface itself, every face does. Does nothing to patches that were
+     * assigned before.
      *
      * @throws InputError if one of the functions vanishes on no face.
      */
@@ -60,11 +63,12 @@ namespace tetradapt::mesh
     double                                      feature_angle;
     double                                      volume = 0.;
     std::vector<std::unique_ptr<CurvedSurface>> surfaces;
+    std::unique_ptr<SelectionBorders>           borders;
   };
 
   /** The projection that a scene asks for; null for Mesh/Projection = none. */
   std::unique_ptr<BoundaryProjection>
-  make_projection(const scene::MeshParameters &parameters);
+  make_projection(const scene::Scene &scene);
 
   /**
    * Bounds with which a mesh is refined whose boundary is projected: a radius-edge ratio of

@@ -2,6 +2,7 @@
 #ifndef tetradapt_mesh_selection_h
 #define tetradapt_mesh_selection_h
 
+#include "tetradapt/core/log.h"
 #include "tetradapt/mesh/tet_mesh.h"
 #include "tetradapt/scene/model_parameters.h"
 
@@ -13,6 +14,22 @@ namespace tetradapt::mesh
     std::string  name; ///< of the support or load
     unsigned int n_faces = 0;
     double       area    = 0.;
+
+    /** Faces through which the border of what is selected runs: they are selected or not as a
+     * whole. */
+    unsigned int n_straddled = 0;
+    /** Of these, the area that is selected although the expression does not hold, or not
+     * although it does; by sampling. */
+    double uncertain_area = 0.;
+    /** Selected area less that where the expression holds. */
+    double excess_area = 0.;
+  };
+
+  /** When an expression counts as holding on a face. */
+  enum class FaceRule
+  {
+    whole,   ///< it holds at the three corners and the centroid
+    interior ///< it holds at the centroid: for surfaces into which its border was cut
   };
 
   /**
@@ -23,8 +40,11 @@ namespace tetradapt::mesh
    * them; patches without faces are dropped.
    *
    * A face is selected if its boundary id or its group's name is listed (or no
-   * list is given) and the expression, if there is one, holds at its three
-   * corners and its centroid.
+   * list is given) and the expression, if there is one, holds on it as @p rule says.
+   * A comparison of affine functions counts as equality at a centroid that lies in its
+   * plane up to rounding.
+   *
+   * For FaceRule::interior, cells and other points than those of the faces are not looked at.
    *
    * @param selectors names, as they are to stand in Patch::selections, and what
    *        they select.
@@ -35,7 +55,16 @@ namespace tetradapt::mesh
    */
   std::vector<SelectedFaces>
   select_faces(TetMesh                                                    &mesh,
-               const std::vector<std::pair<std::string, scene::Selector>> &selectors);
+               const std::vector<std::pair<std::string, scene::Selector>> &selectors,
+               FaceRule                                                    rule = FaceRule::whole);
+
+  /** Logs what of the selected areas is uncertain, with a warning from 1 % on. */
+  void
+  report_straddled(const std::vector<SelectedFaces> &found, const core::Log &log);
+
+  /** The area of the faces that carry each selection. */
+  std::map<std::string, double>
+  selected_areas(const TetMesh &mesh);
 } // namespace tetradapt::mesh
 
 #endif
