@@ -4,6 +4,7 @@
 #include "tetradapt/adapt/cycle_estimates.h"
 #include "tetradapt/adapt/stopping.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tetradapt::adapt
@@ -13,22 +14,31 @@ namespace tetradapt::adapt
     using scene::ErrorEstimator;
     using scene::Plan;
 
+    using mechanics::EnergyNorm;
+
     std::optional<double>
     ratio(double value, double scale)
     {
       return scale > 0. ? std::optional<double>(value / scale) : std::nullopt;
     }
 
+    /** The norm of what a solution is compared with; its noise that of both. */
+    EnergyNorm
+    norm_of(const compare::Difference &difference, const EnergyNorm &own)
+    {
+      return {difference.energy_norm, std::max(difference.energy_noise, own.noise)};
+    }
+
     /** Puts the norms of a difference in the record, as absolute and relative errors. */
     void
-    set_errors(const compare::Difference &difference, CycleRecord &record)
+    set_errors(const compare::Difference &difference, const EnergyNorm &norm, CycleRecord &record)
     {
       record.l2_error              = difference.l2;
       record.h1_error              = difference.h1;
       record.energy_error          = difference.energy;
       record.relative_l2_error     = ratio(difference.l2, difference.l2_norm);
       record.relative_h1_error     = ratio(difference.h1, difference.h1_norm);
-      record.relative_energy_error = ratio(difference.energy, difference.energy_norm);
+      record.relative_energy_error = norm.relative(difference.energy);
     }
 
     /** Errors against the reference, the known energy and the exact displacement, the
@@ -43,13 +53,13 @@ namespace tetradapt::adapt
       if (plan.needs(Plan::extrapolation))
         {
           const compare::Difference &difference = cycle.comparison.to_reference();
-          set_errors(difference, record);
-          record.error_source      = ErrorSource::reference;
-          record.estimate          = difference.energy;
-          record.relative_estimate = record.relative_energy_error;
-          record.estimate_source   = "reference";
-          record.reference_error_estimate
-            = ratio(sources.reference->estimated_error, difference.energy_norm);
+          const EnergyNorm           norm       = norm_of(difference, cycle.solution.norm);
+          set_errors(difference, norm, record);
+          record.error_source             = ErrorSource::reference;
+          record.estimate                 = difference.energy;
+          record.relative_estimate        = record.relative_energy_error;
+          record.estimate_source          = "reference";
+          record.reference_error_estimate = norm.relative(sources.reference->estimated_error);
         }
       if (plan.needs(Plan::known_energy))
         {
@@ -67,8 +77,12 @@ namespace tetradapt::adapt
         }
       if (plan.needs(Plan::exact_comparison))
         {
-          set_errors(cycle.comparison.to_exact_solution(), record);
+          const compare::Difference &difference = cycle.comparison.to_exact_solution();
+          set_errors(difference, norm_of(difference, cycle.solution.norm), record);
           record.error_source = ErrorSource::exact;
+          if (!record.relative_energy_error)
+            measured.warning = "The exact solution has no stress, so that no relative error can "
+                               "be told: only the absolute errors mean something.";
         }
       if (record.l2_error || plan.needs(Plan::nodal_ren))
         record.displacement_error_source = sources.scene.exact_solution.has_displacement()
@@ -82,7 +96,8 @@ namespace tetradapt::adapt
     known_error(const ErrorSources &sources, const SolvedCycle &cycle, const CycleRecord &record)
     {
       KnownError known;
-      if (is_true(record.error_source))
+      // What is lost in rounding cannot be estimated.
+      if (is_true(record.error_source) && record.energy_error > cycle.solution.norm.noise)
         known.global = record.energy_error;
       if (sources.plan.needs(Plan::exact_comparison))
         {
@@ -176,7 +191,7 @@ namespace tetradapt::adapt
     if (sources.plan.needs(Plan::goal_values))
       evaluate_goals(sources.scene, cycle.comparison, record);
     set_main_estimate(record);
-    if (is_true(record.error_source))
+    if (is_true(record.error_source) && record.energy_error > cycle.solution.norm.noise)
       record.effectivity = estimate::effectivity(record.estimate, record.energy_error);
     measured.wanted_indicator_norm = wanted_indicator_norm(sources.scene, record, measured);
     if (sources.plan.needs(Plan::nodal_ren))

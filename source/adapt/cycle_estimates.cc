@@ -36,7 +36,7 @@ namespace tetradapt::adapt
     EstimateRecord
     to_record(const estimate::EstimatorTraits &traits,
               const estimate::Estimate        &estimate,
-              const double                     norm,
+              const mechanics::EnergyNorm     &norm,
               const KnownError                &known)
     {
       EstimateRecord record;
@@ -45,8 +45,7 @@ namespace tetradapt::adapt
       record.global         = estimate.global;
       if (!traits.is_energy_norm)
         return record;
-      if (norm > 0.)
-        record.relative = estimate.global / norm;
+      record.relative    = norm.relative(estimate.global);
       record.effectivity = estimate::effectivity(record.global, known.global);
       if (known.cells != nullptr && estimate.indicators.size() == known.cells->size())
         record.local_deviation = deviation_of_local_effectivity(estimate.indicators, *known.cells);
@@ -55,12 +54,13 @@ namespace tetradapt::adapt
 
     /** The norm that the record's relative error is of, so that curves of estimates and
      * errors can be compared; that of the solution where there is none. */
-    double
+    mechanics::EnergyNorm
     norm_of_solution(const CycleRecord &record, const solve::StaticSolution &solution)
     {
+      mechanics::EnergyNorm norm = solution.norm;
       if (record.energy_error && record.relative_energy_error.value_or(0.) > 0.)
-        return *record.energy_error / *record.relative_energy_error;
-      return std::sqrt(std::max(0., solution.energy));
+        norm.value = *record.energy_error / *record.relative_energy_error;
+      return norm;
     }
   } // namespace
 
@@ -127,7 +127,7 @@ namespace tetradapt::adapt
   {
     using Clock                = std::chrono::steady_clock;
     const bool          driven = is_driven(sources.plan);
-    const double        norm   = norm_of_solution(record, cycle.solution);
+    const auto          norm   = norm_of_solution(record, cycle.solution);
     std::vector<double> indicators;
     for (const ErrorEstimator which : wanted_estimators(sources.scene, driven))
       {

@@ -87,6 +87,8 @@ namespace tetradapt::adapt
         core::on_first_rank(communicator, [&]() { announce(cycle); });
         decision = rejected ? fall_back() : finish(std::move(cycle));
       }
+    for (const Doubt &doubt : doubts)
+      log.warning("last cycle: " + doubt.what + " " + doubt.advice);
     core::on_first_rank(communicator, [&]() {
       for (Observer *observer : observers)
         observer->run_done(decision.text);
@@ -147,8 +149,12 @@ namespace tetradapt::adapt
                                                             *materials,
                                                             communicator);
     std::ostringstream text;
-    text << "Reference: " << reference->description << "; estimated relative energy error "
-         << reference->estimated_error / sampling->energy_norm();
+    text << "Reference: " << reference->description << "; estimated relative energy error ";
+    const mechanics::EnergyNorm norm{sampling->energy_norm(), sampling->energy_noise()};
+    if (const auto relative = norm.relative(reference->estimated_error))
+      text << *relative;
+    else
+      text << "unknown, for it has no stress";
     if (plan.needs(Plan::known_energy) && !materials->has_thermal_strain())
       {
         // What is known is sharper than what is estimated.
@@ -206,6 +212,12 @@ namespace tetradapt::adapt
         cycle.record.algebraic_error         = cycle.solution.algebraic_error;
       }
     check_range(cycle.record);
+    {
+      const auto scope = timer.scope("estimate");
+      doubts           = doubts_about(*cycle.solution.displacement, communicator);
+      for (const Doubt &doubt : doubts)
+        log.warning("cycle " + std::to_string(number) + ": " + doubt.what);
+    }
     cycle.comparison = std::make_unique<estimate::Comparison>(
       cycle.solution.displacement, *materials, scene.exact_solution, sampling, communicator);
     return cycle;
@@ -236,15 +248,6 @@ namespace tetradapt::adapt
              << record.energy << "; errors can be computed for energies between " << smallest_energy
              << " and " << largest_energy << '.' << advice;
         throw core::NumericalError(text.str());
-      }
-    if (record.cycle == 0 && drive == estimate::Drive::loads && record.max_displacement > extent)
-      {
-        std::ostringstream text;
-        text << "The largest displacement, " << record.max_displacement
-             << ", is larger than the body, " << extent
-             << ", but linear elasticity holds for small displacements only. Look at the units of "
-                "loads, lengths and Young moduli: N, mm and MPa go together, and N, m and Pa.";
-        log.warning(text.str());
       }
   }
 

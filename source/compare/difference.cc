@@ -178,6 +178,7 @@ namespace tetradapt::compare
     result.l2_norm           = sampling.l2_norm();
     result.h1_norm           = sampling.h1_norm();
     result.energy_norm       = sampling.energy_norm();
+    result.energy_noise      = sampling.energy_noise();
     result.largest_distance  = max_over_ranks(result.largest_distance, sampling.communicator());
     result.n_unsampled_cells = unsampled.size();
     result.cell_energy.assign(sums.begin(), sums.begin() + n_cells);

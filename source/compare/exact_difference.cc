@@ -54,19 +54,19 @@ namespace tetradapt::compare
     const double         body    = (box.second - box.first).norm();
     Difference           result;
     result.cell_energy.assign(n_cells, 0.);
-    std::vector<double> sums(6, 0.);
+    std::vector<double> sums(7, 0.);
 
     together(communicator, [&] {
       const ExactSolution  exact(exact_solution);
       const FieldEvaluator evaluator(u_h);
-      // In mixed form the stress, without thermal strain, measures the energy.
-      const bool thermal = materials.is_mixed() && materials.has_thermal_strain();
+      const bool           thermal = materials.has_thermal_strain();
       for (unsigned int cell = slice.begin; cell < slice.end; ++cell)
         {
           const mechanics::EnergyDensity density(materials, mesh.regions[cell]);
           const double                   volume = mesh::cell_volume(mesh, cell);
           const auto                     h      = heights(mesh, cell);
-          double                         energy = 0.;
+          const double mu     = mechanics::shear_modulus(materials.law(mesh.regions[cell]));
+          double       energy = 0.;
           for (unsigned int q = 0; q < rule.points.size(); ++q)
             {
               const mesh::Barycentric &b      = rule.points[q];
@@ -85,6 +85,7 @@ namespace tetradapt::compare
                 += weight * density.of_error(G - free, G_h - free, evaluator.pressure(cell, b));
               sums[3] += weight * u.norm_square();
               sums[4] += weight * G.norm_square();
+              sums[6] += 2. * mu * weight * G.norm_square();
               sums[5]
                 += weight * materials.law(mesh.regions[cell]).energy_density(symmetrize(G - free));
             }
@@ -102,6 +103,7 @@ namespace tetradapt::compare
                               &result.energy_norm};
     for (unsigned int i = 0; i < 6; ++i)
       *norms[i] = std::sqrt(std::max(sums[i], 0.));
+    result.energy_noise = mechanics::EnergyNorm::rounding * std::sqrt(sums[6]);
     return result;
   }
 } // namespace tetradapt::compare

@@ -98,7 +98,7 @@ namespace tetradapt::compare
       if (!solution.reached)
         log.warning("Reference/Maximum unknowns stopped the refinement of the reference before its "
                     "tolerance: the estimate of its relative energy error is "
-                    + number(solution.estimated_error / std::sqrt(solution.energy)) + " instead of "
+                    + number(solution.estimated_error / solution.norm) + " instead of "
                     + number(tolerance) + ".");
       return reference;
     }

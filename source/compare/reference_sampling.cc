@@ -18,13 +18,13 @@ namespace tetradapt::compare
                                        MPI_Comm                      communicator)
     : field(reference), material_map(materials), mpi_communicator(communicator)
   {
-    std::vector<double> sums(3, 0.);
+    std::vector<double> sums(4, 0.);
     if (hexahedra() != nullptr)
       visit_hexahedra(sums);
     else
       visit_tetrahedra(sums);
     sum_over_ranks(sums, communicator);
-    for (unsigned int i = 0; i < 3; ++i)
+    for (unsigned int i = 0; i < 4; ++i)
       norms[i] = std::sqrt(std::max(sums[i], 0.));
   }
 
@@ -48,15 +48,17 @@ namespace tetradapt::compare
     const auto order = mesh::SpaceCurve(box.first, box.second).order(centroids);
     cells.assign(order.begin() + slice.begin, order.begin() + slice.end);
 
-    // Exact for the gradient's square (degree 2) and the value's (degree 4).
-    const TetQuadrature &for_gradients = tet_quadrature(2), &for_values = tet_quadrature(4);
+    // Exact for the gradient's square (degree 2) and the value's (degree 4); temperatures
+    // are expressions.
+    const bool           thermal       = material_map.has_thermal_strain();
+    const TetQuadrature &for_values    = tet_quadrature(4),
+                        &for_gradients = tet_quadrature(thermal ? 4 : 2);
     const FieldEvaluator evaluator(reference());
-    // In mixed form the stress, without thermal strain, measures the energy.
-    const bool thermal = material_map.is_mixed() && material_map.has_thermal_strain();
     for (const unsigned int cell : cells)
       {
         const mechanics::EnergyDensity density(material_map, mesh.regions[cell]);
         const double                   volume = mesh::cell_volume(mesh, cell);
+        const double mu = mechanics::shear_modulus(material_map.law(mesh.regions[cell]));
         for (unsigned int q = 0; q < for_values.points.size(); ++q)
           sums[0] += volume * for_values.weights[q]
                      * evaluator.value(cell, for_values.points[q]).norm_square();
@@ -66,6 +68,7 @@ namespace tetradapt::compare
             const Tensor<2, 3> G      = evaluator.gradient(cell, for_gradients.points[q]);
             const double       p      = evaluator.pressure(cell, for_gradients.points[q]);
             sums[1] += weight * G.norm_square();
+            sums[3] += 2. * mu * weight * G.norm_square();
             if (thermal)
               {
                 const auto point = position(mesh, cell, for_gradients.points[q]);
@@ -92,13 +95,23 @@ namespace tetradapt::compare
         const auto  &law    = material_map.law(u.cells()[cell].region);
         const auto  &size   = u.cells()[cell].size;
         const double volume = size[0] * size[1] * size[2];
+        const double mu     = mechanics::shear_modulus(law);
         for (unsigned int q = 0; q < gauss.size(); ++q)
           {
             const double weight   = volume * gauss.weight(q);
             const auto [value, G] = u.evaluate(cell, gauss.point(q));
             sums[0] += weight * value.norm_square();
             sums[1] += weight * G.norm_square();
-            sums[2] += weight * law.energy_density(dealii::symmetrize(G));
+            sums[3] += 2. * mu * weight * G.norm_square();
+            auto strain = dealii::symmetrize(G);
+            if (material_map.has_thermal_strain())
+              {
+                Point<3> x = u.cells()[cell].lower;
+                for (unsigned int d = 0; d < 3; ++d)
+                  x[d] += gauss.point(q)[d] * size[d];
+                strain -= material_map.thermal_strain(u.cells()[cell].region, x);
+              }
+            sums[2] += weight * law.energy_density(strain);
           }
       }
   }

@@ -51,7 +51,7 @@ namespace tetradapt::report
     const auto add_norm =
       [&](const std::string &name, const std::optional<double> &error, const std::string &source) {
         if (error)
-          results.push_back({name, 0., *error, -*error, {}, source});
+          results.push_back({name, 0., *error, 0. - *error, {}, source});
       };
     if (adapt::is_true(record.error_source))
       add_norm("relative energy error",

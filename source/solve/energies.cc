@@ -1,13 +1,47 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/solve/energies.h"
 
+#include "tetradapt/mechanics/energy_norm.h"
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
+
+#include <map>
 
 namespace tetradapt::solve
 {
   namespace
   {
+    /** Shear moduli by region. */
+    class ShearModuli
+    {
+    public:
+      explicit ShearModuli(const mechanics::MaterialMap &materials) : materials(materials)
+      {
+      }
+
+      double
+      operator()(const int region)
+      {
+        const auto found = moduli.emplace(region, 0.);
+        if (found.second)
+          found.first->second = mechanics::shear_modulus(materials.law(region));
+        return found.first->second;
+      }
+
+    private:
+      const mechanics::MaterialMap &materials;
+      std::map<int, double>         moduli;
+    };
+
+    /** Sums over the ranks. Collective. */
+    void
+    add_up(Energies &sum, MPI_Comm communicator)
+    {
+      for (double Energies::*part : {&Energies::energy, &Energies::stored, &Energies::scale})
+        sum.*part = dealii::Utilities::MPI::sum(sum.*part, communicator);
+    }
+
     dealii::Point<3>
     position(const mesh::TetMesh &mesh, const unsigned int cell, const mesh::Barycentric &b)
     {
@@ -82,16 +116,19 @@ namespace tetradapt::solve
 
     const GradientTable               table(displacement.degree(), quadrature);
     std::vector<dealii::Tensor<2, 3>> gradients(quadrature.size());
+    ShearModuli                       shear_moduli(materials);
     Energies                          sum;
     for (unsigned int cell = begin; cell < end; ++cell)
       {
         const int    region = mesh.regions[cell];
         const auto  &law    = materials.law(region);
         const double volume = mesh::cell_volume(mesh, cell);
+        const double mu     = shear_moduli(region);
         table.compute(displacement, cell, gradients);
         for (unsigned int q = 0; q < quadrature.size(); ++q)
           {
             const mesh::Barycentric &b = table.points[q];
+            sum.scale += 12. * volume * quadrature.weight(q) * mu * gradients[q].norm_square();
             if (displacement.pressure)
               {
                 const auto elastic = gradients[q]
@@ -119,8 +156,44 @@ namespace tetradapt::solve
                             strain - materials.thermal_strain(region, position(mesh, cell, b)));
           }
       }
-    sum.energy = dealii::Utilities::MPI::sum(sum.energy, communicator);
-    sum.stored = dealii::Utilities::MPI::sum(sum.stored, communicator);
+    add_up(sum, communicator);
+    return sum;
+  }
+
+  Energies
+  compute_energies(const mesh::HexahedralField  &displacement,
+                   const mechanics::MaterialMap &materials,
+                   MPI_Comm                      communicator)
+  {
+    const unsigned long n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
+    const unsigned long rank    = dealii::Utilities::MPI::this_mpi_process(communicator);
+    const unsigned int  begin   = displacement.n_cells() * rank / n_ranks;
+    const unsigned int  end     = displacement.n_cells() * (rank + 1) / n_ranks;
+    // Gauss' rule with a point more than the degree in each direction is exact.
+    const dealii::QGauss<3> gauss(displacement.degree() + 1);
+    ShearModuli             shear_moduli(materials);
+    Energies                sum;
+    for (unsigned int cell = begin; cell < end; ++cell)
+      {
+        const auto  &box    = displacement.cells()[cell];
+        const auto  &law    = materials.law(box.region);
+        const double volume = box.size[0] * box.size[1] * box.size[2];
+        const double mu     = shear_moduli(box.region);
+        for (unsigned int q = 0; q < gauss.size(); ++q)
+          {
+            const auto       gradient = displacement.gradient(cell, gauss.point(q));
+            const auto       strain   = symmetrize(gradient);
+            const double     weight   = volume * gauss.weight(q);
+            dealii::Point<3> x        = box.lower;
+            for (unsigned int d = 0; d < 3; ++d)
+              x[d] += gauss.point(q)[d] * box.size[d];
+            sum.energy += weight * law.energy_density(strain);
+            sum.stored += 0.5 * weight
+                          * law.energy_density(strain - materials.thermal_strain(box.region, x));
+            sum.scale += 2. * weight * mu * gradient.norm_square();
+          }
+      }
+    add_up(sum, communicator);
     return sum;
   }
 } // namespace tetradapt::solve

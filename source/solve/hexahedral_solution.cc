@@ -3,6 +3,7 @@
 
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/solve/conjugate_gradients.h"
+#include "tetradapt/solve/energies.h"
 #include "tetradapt/solve/hexahedral_indicators.h"
 #include "tetradapt/solve/hexahedral_multigrid.h"
 
@@ -216,7 +217,7 @@ namespace tetradapt::solve
       text << solution.energy;
       text.precision(3);
       if (error)
-        text << ", estimated relative error " << *error / std::sqrt(solution.energy);
+        text << ", estimated relative error " << *error / solution.norm;
       log.detail(text.str());
     }
   } // namespace
@@ -287,8 +288,12 @@ namespace tetradapt::solve
         const auto indicators = hexahedral_indicators(forest, fine.space, materials, x);
         solution.levels.push_back(
           {double(solution.n_dofs), 2. * work - solution.energy, total(indicators, communicator)});
-        const double norm   = std::sqrt(solution.energy);
-        const double target = tolerance * norm;
+        // Strain that temperatures cause freely is no stress.
+        solution.norm = std::sqrt(
+          materials.has_thermal_strain()
+            ? 2. * compute_energies(*solution.displacement, materials, communicator).stored
+            : solution.energy);
+        const double target = tolerance * solution.norm;
         auto         error  = calibrated_error(solution.levels);
         if (const int sign = sign_of_gain(fine, forces))
           {
@@ -304,7 +309,7 @@ namespace tetradapt::solve
         report(solution, forest.n_cells(), iterations, error, log);
         // Too few levels to calibrate by: the indicator, with room.
         solution.estimated_error
-          = error.value_or(std::min(norm, 3. * solution.levels.back().indicator));
+          = error.value_or(std::min(solution.norm, 3. * solution.levels.back().indicator));
         solution.reached  = solution.estimated_error <= target;
         const double next = wanted_growth(error, target);
         if (solution.reached || next * solution.n_dofs > scene.reference.max_dofs)

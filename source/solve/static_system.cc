@@ -9,6 +9,9 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace tetradapt::solve
 {
   namespace
@@ -30,6 +33,20 @@ namespace tetradapt::solve
       for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
         sum += forces[space.field_node(node)] * displacement[space.field_node(node)];
       return dealii::Utilities::MPI::sum(sum, space.communicator());
+    }
+
+    /** The estimated algebraic error may be too small; a norm that is not well above it
+     * is noise. */
+    constexpr double algebraic_noise = 10.;
+
+    mechanics::EnergyNorm
+    norm_of(const Energies &energies, const double square, const LinearResult &result)
+    {
+      mechanics::EnergyNorm norm;
+      norm.value = std::sqrt(std::max(0., square));
+      norm.noise = mechanics::EnergyNorm::rounding * std::sqrt(energies.scale)
+                   + algebraic_noise * result.algebraic_error;
+      return norm;
     }
   } // namespace
 
@@ -150,13 +167,13 @@ namespace tetradapt::solve
     const Energies energies
       = compute_energies(*solution.displacement, data->materials, space.communicator());
     solution.external_work = work(space, data->forces, values);
-    solution.energy        = data->prescribed.is_homogeneous()
-                               ? 2. * solution.external_work - energies.energy
-                               : energies.energy;
-    solution.strain_energy
-      = data->prescribed.is_homogeneous() && !data->materials.has_thermal_strain()
-          ? 0.5 * solution.energy
-          : energies.stored;
+    // In mixed form temperatures load the pressure's equation also, which that work leaves out.
+    const bool thermal = data->materials.has_thermal_strain();
+    const bool by_work
+      = data->prescribed.is_homogeneous() && !(thermal && data->materials.is_mixed());
+    solution.energy = by_work ? 2. * solution.external_work - energies.energy : energies.energy;
+    solution.strain_energy = by_work && !thermal ? 0.5 * solution.energy : energies.stored;
+    solution.norm = norm_of(energies, thermal ? 2. * energies.stored : solution.energy, result);
     return solution;
   }
 

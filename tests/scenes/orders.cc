@@ -29,7 +29,9 @@ namespace
     const fs::path    folder = fresh(name);
     const auto        result
       = run("--quiet --output-directory " + name + " " + scene("verification/" + name + ".prm"));
-    std::cout << name << ": exit code " << result.code << '\n' << result.err;
+    // The displacements of this solution are large: they are warned of.
+    std::cout << name << ": exit code " << result.code << '\n'
+              << (result.code == 0 ? "" : result.err);
     const Table table(folder);
     check("  " + std::to_string(cycles) + " cycles", table.n_rows() == cycles);
     // 2, 4, 8, ... bricks a side.

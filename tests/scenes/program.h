@@ -129,6 +129,12 @@ namespace program
       const auto &cells = words.at(column);
       return row < cells.size() ? cells[row] : "";
     }
+    /** Columns that no cycle fills are left out of the file. */
+    bool
+    has(const std::string &column) const
+    {
+      return columns.count(column) > 0;
+    }
     /** No number if there is no such row. */
     double
     value(const std::string &column, unsigned int row) const

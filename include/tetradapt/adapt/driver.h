@@ -3,6 +3,7 @@
 #define tetradapt_adapt_driver_h
 
 #include "tetradapt/adapt/acceptance.h"
+#include "tetradapt/adapt/doubts.h"
 #include "tetradapt/adapt/mesh_maker.h"
 #include "tetradapt/adapt/observer.h"
 #include "tetradapt/adapt/size_field.h"
@@ -74,8 +75,8 @@ namespace tetradapt::adapt
     /** Whether the cycle is worse than the one that its mesh was made from. */
     void
     warn_of_flat_cells() const;
-    /** Warns of displacements that no small ones are. @throws core::NumericalError if the
-     * solution is not finite or its energy leaves the range in which errors can be told. */
+    /** @throws core::NumericalError if the solution is not finite or its energy leaves the
+     * range in which errors can be told. */
     void
     check_range(const CycleRecord &record) const;
     bool
@@ -137,6 +138,7 @@ namespace tetradapt::adapt
     std::unique_ptr<mesh::NodalField>                 start; ///< first iterate of the next solve
     std::vector<CycleRecord>                          history;
     std::vector<estimate::EnergyLevel>                levels; ///< accepted meshes only
+    std::vector<Doubt>                                doubts; ///< about the last solution
     /** The cycle that the present mesh was made from, while it can be rejected. */
     std::optional<Cycle> accepted;
     unsigned int         n_rejected      = 0;          ///< since then

@@ -7,11 +7,13 @@
 
 namespace tetradapt::compare
 {
-  /** Norms of u_h minus a better solution u. Energies are int eps:C:eps. */
+  /** Norms of u_h minus a better solution u. Energies are int eps:C:eps; that of u itself is
+   * of the strain without what temperatures cause, see mechanics::EnergyNorm. */
   struct Difference
   {
     double              l2 = 0., h1 = 0., energy = 0.; ///< norms of u - u_h; h1: seminorm |grad|
     double              l2_norm = 0., h1_norm = 0., energy_norm = 0.; ///< the same norms of u
+    double              energy_noise = 0.;                            ///< EnergyNorm::noise of u
     std::vector<double> cell_energy; ///< energy norm of the difference, one a cell of u_h's mesh
     double              largest_distance = 0.; ///< farthest quadrature point outside u_h's mesh
     /** Cells of u_h's mesh without any quadrature point of the reference's: where

@@ -3,6 +3,7 @@
 #define tetradapt_compare_reference_sampling_h
 
 #include "tetradapt/compare/point_locator.h"
+#include "tetradapt/mechanics/energy_norm.h"
 #include "tetradapt/mechanics/material_map.h"
 #include "tetradapt/mesh/hexahedral_field.h"
 
@@ -82,7 +83,7 @@ namespace tetradapt::compare
       return cells;
     }
 
-    /** Norms of the reference u: L2, |grad u|, and sqrt(int eps:C:eps). */
+    /** Norms of the reference u: L2, |grad u|, and mechanics::EnergyNorm. */
     double
     l2_norm() const
     {
@@ -98,6 +99,12 @@ namespace tetradapt::compare
     {
       return norms[2];
     }
+    /** EnergyNorm::noise. */
+    double
+    energy_noise() const
+    {
+      return mechanics::EnergyNorm::rounding * norms[3];
+    }
 
   private:
     /** Each adds this rank's share of the norms' squares. */
@@ -106,11 +113,11 @@ namespace tetradapt::compare
     void
     visit_hexahedra(std::vector<double> &sums) const;
 
-    ReferenceField                        field;
-    const mechanics::MaterialMap         &material_map;
-    MPI_Comm                              mpi_communicator;
-    std::vector<unsigned int>             cells;
-    double                                norms[3] = {0., 0., 0.};
+    ReferenceField                field;
+    const mechanics::MaterialMap &material_map;
+    MPI_Comm                      mpi_communicator;
+    std::vector<unsigned int>     cells;
+    double                        norms[4] = {0., 0., 0., 0.}; ///< the last: int 2 mu |grad u|^2
     mutable std::unique_ptr<PointLocator> point_locator;
   };
 } // namespace tetradapt::compare

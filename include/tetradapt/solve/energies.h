@@ -3,6 +3,7 @@
 #define tetradapt_solve_energies_h
 
 #include "tetradapt/mechanics/material_map.h"
+#include "tetradapt/mesh/hexahedral_field.h"
 #include "tetradapt/mesh/nodal_field.h"
 
 #include <mpi.h>
@@ -13,12 +14,21 @@ namespace tetradapt::solve
   {
     double energy = 0.; ///< int eps:C:eps = a(u,u)
     double stored = 0.; ///< 1/2 int (eps - eps_th):C:(eps - eps_th)
+    /** int 2 mu |grad u|^2: the scale of the terms that cancel in the others where a body turns
+     * or expands freely. */
+    double scale = 0.;
   };
 
   /** Energies of a displacement; exact for a constant temperature. Collective:
    * the cells are shared out over the ranks. */
   Energies
   compute_energies(const mesh::NodalField       &displacement,
+                   const mechanics::MaterialMap &materials,
+                   MPI_Comm                      communicator);
+
+  /** The same on hexahedra, in displacement form. Collective. */
+  Energies
+  compute_energies(const mesh::HexahedralField  &displacement,
                    const mechanics::MaterialMap &materials,
                    MPI_Comm                      communicator);
 } // namespace tetradapt::solve

@@ -43,6 +43,7 @@ namespace tetradapt::solve
     std::shared_ptr<mesh::HexahedralField> displacement;
     unsigned long                          n_dofs = 0;  ///< supports included
     double                                 energy = 0.; ///< a(u_h,u_h)
+    double norm = 0.; ///< what relative errors are of, see mechanics::EnergyNorm
     /** Energy norm: calibrated_error() and a margin for what it was found to lack on
      * singular edges, half of it for degree 2, 30 % for degree 3. */
     double estimated_error = 0.;

@@ -3,6 +3,7 @@
 #define tetradapt_solve_static_solution_h
 
 #include "tetradapt/core/log.h"
+#include "tetradapt/mechanics/energy_norm.h"
 #include "tetradapt/mechanics/material_map.h"
 #include "tetradapt/mesh/nodal_field.h"
 #include "tetradapt/scene/scene.h"
@@ -26,6 +27,9 @@ namespace tetradapt::solve
     /** 1/2 int (eps - eps_th):C:(eps - eps_th), where eps_th is the thermal strain. Without
      * temperatures and with fixed supports half of energy, and as exact as it is. */
     double strain_energy = 0.;
+    /** What relative errors are of: the root of energy, but of twice strain_energy where
+     * temperatures act. */
+    mechanics::EnergyNorm norm;
     /** F(u_h): tractions, body forces and thermal loads on the displacement. */
     double       external_work = 0.;
     unsigned int iterations    = 0; ///< 0: direct solver
