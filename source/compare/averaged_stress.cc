@@ -122,12 +122,13 @@ namespace tetradapt::compare
                 }
               NodeProblem &problem = problems[number[slot]];
               double       right[6];
+              const double weight = face.weight_at(place);
               face.right_at(place, right);
               for (unsigned int a = 0; a < 6; ++a)
                 {
-                  problem.right[a] += right[a];
+                  problem.right[a] += weight * right[a];
                   for (unsigned int b = 0; b < 6; ++b)
-                    problem.matrix[a][b] += face.matrix[a][b];
+                    problem.matrix[a][b] += weight * face.matrix[a][b];
                 }
             }
         }

@@ -5,8 +5,11 @@
 
 namespace tetradapt::compare
 {
-  GivenLoads::Value::Value(const std::array<std::string, 3> &texts, const std::string &what)
-    : expression(texts, what), is_constant(expression.is_constant())
+  GivenLoads::Value::Value(const std::array<std::string, 3> &texts,
+                           const std::string                &what,
+                           const core::Expression::Variables variables)
+    : expression(texts, what, variables), is_constant(expression.is_constant()),
+      uses_normal(expression.uses_normal())
   {
     if (is_constant)
       constant = expression(Point<3>());
@@ -45,7 +48,8 @@ namespace tetradapt::compare
               values.emplace_back(is_pressure
                                     ? std::array<std::string, 3>{{load.value[0], "0", "0"}}
                                     : load.value,
-                                  what + "/Value");
+                                  what + "/Value",
+                                  core::Expression::Variables::point_and_normal);
               for_patches(what, [&](PatchConditions &patch) {
                 patch.loads.push_back({value, is_pressure});
               });
@@ -77,8 +81,24 @@ namespace tetradapt::compare
     Tensor<1, 3> sum;
     for (const auto &load : patches[mesh.faces[face].patch].loads)
       {
-        const Tensor<1, 3> value = values[load.value](point);
+        const Value       &given = values[load.value];
+        const Tensor<1, 3> value
+          = given.uses_normal
+              ? given(mesh::SurfacePoint{point, mesh::surface_point(mesh, face, point).normal})
+              : given(point);
         sum += load.is_pressure ? -value[0] * normal : value;
+      }
+    return sum;
+  }
+
+  Tensor<1, 3>
+  GivenLoads::surface_traction(const unsigned int face, const mesh::SurfacePoint &at) const
+  {
+    Tensor<1, 3> sum;
+    for (const auto &load : patches[mesh.faces[face].patch].loads)
+      {
+        const Tensor<1, 3> value = values[load.value](at);
+        sum += load.is_pressure ? -value[0] * at.normal : value;
       }
     return sum;
   }

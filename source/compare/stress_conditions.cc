@@ -2,7 +2,7 @@
 #include "tetradapt/compare/stress_conditions.h"
 
 #include "tetradapt/compare/field_evaluator.h"
-#include "tetradapt/mesh/face_table.h"
+#include "tetradapt/mesh/surface_point.h"
 
 #include <algorithm>
 
@@ -75,15 +75,45 @@ namespace tetradapt::compare
         }
     }
 
-    Face
-    make_face(const mesh::TetMesh &mesh,
-              const unsigned int   f,
-              const unsigned int   cell,
-              const unsigned int   degree,
-              const CellStress    &stress,
-              const GivenLoads    &loads)
+    /** The conditions of the points of boundary face @p f of @p cell, each with its own normal
+     * on the body's true surface. */
+    void
+    add_curved_face(const mesh::TetMesh &mesh,
+                    const unsigned int   f,
+                    const Face          &flat,
+                    const GivenLoads    &loads,
+                    std::vector<Face>   &faces)
+    {
+      const unsigned char known = loads.known_components(f);
+      for (unsigned int q = 0; q < flat.n_points; ++q)
+        {
+          Face face{};
+          face.local_face = flat.local_face;
+          face.n_points   = 1;
+          face.corner     = flat.n_points == 1 ? dealii::numbers::invalid_unsigned_int : q;
+          const mesh::SurfacePoint at = mesh::surface_point(mesh, f, flat.points[q]);
+          face.points[0]              = at.point;
+          Tensor<1, 3> tractions[3];
+          if (loads.has_traction(f))
+            tractions[0] = loads.surface_traction(f, at);
+          for (unsigned int c = 0; c < 3; ++c)
+            if ((known >> c & 1) != 0)
+              add_traction(face, c, at.normal, tractions);
+          faces.push_back(face);
+        }
+    }
+
+    void
+    add_face(const mesh::TetMesh &mesh,
+             const unsigned int   f,
+             const unsigned int   cell,
+             const unsigned int   degree,
+             const CellStress    &stress,
+             const GivenLoads    &loads,
+             std::vector<Face>   &faces)
     {
       Face face{};
+      face.corner = dealii::numbers::invalid_unsigned_int;
       for (unsigned int i = 0; i < 4; ++i)
         {
           const auto &points = mesh.faces[f].vertices;
@@ -104,6 +134,8 @@ namespace tetradapt::compare
                             * Tensor<1, 3>(mesh.points[v[i]]);
 
       const unsigned char known = loads.known_components(f);
+      if (known != 0 && mesh::has_curved_faces(mesh))
+        return add_curved_face(mesh, f, face, loads, faces);
       if (known != 0)
         {
           Tensor<1, 3> tractions[3];
@@ -129,7 +161,7 @@ namespace tetradapt::compare
           add_tangential_strain(face, t2, t2, stress.materials()[cell], stresses);
           add_tangential_strain(face, t1, t2, stress.materials()[cell], stresses);
         }
-      return face;
+      faces.push_back(face);
     }
   } // namespace
 
@@ -150,23 +182,26 @@ namespace tetradapt::compare
                                      const CellStress       &stress,
                                      const RecoveryPatches  &patches,
                                      const GivenLoads       &loads)
-    : on_boundary(u_h.mesh().n_points(), 0), begin(u_h.mesh().n_cells() + std::size_t(1), 0),
-      faces(u_h.mesh().faces.size())
+    : on_boundary(u_h.mesh().n_points(), 0), begin(u_h.mesh().n_cells() + std::size_t(1), 0)
   {
-    const mesh::TetMesh      &mesh = u_h.mesh();
-    std::vector<unsigned int> cells(mesh.faces.size());
+    const mesh::TetMesh                               &mesh = u_h.mesh();
+    std::vector<std::pair<unsigned int, unsigned int>> order; // of cells, then faces
     for (unsigned int f = 0; f < mesh.faces.size(); ++f)
       {
-        cells[f] = patches.cell_of_face(mesh, f);
-        ++begin[cells[f] + 1];
+        order.emplace_back(patches.cell_of_face(mesh, f), f);
         for (const unsigned int v : mesh.faces[f].vertices)
           on_boundary[v] = 1;
       }
+    std::sort(order.begin(), order.end());
+    faces.reserve(order.size());
+    for (const auto &[cell, f] : order)
+      {
+        const std::size_t before = faces.size();
+        add_face(mesh, f, cell, u_h.degree(), stress, loads, faces);
+        begin[cell + 1] += faces.size() - before;
+      }
     for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
       begin[cell + 1] += begin[cell];
-    auto next = begin;
-    for (unsigned int f = 0; f < mesh.faces.size(); ++f)
-      faces[next[cells[f]]++] = make_face(mesh, f, cells[f], u_h.degree(), stress, loads);
 
     if (loads.has_body_force())
       {

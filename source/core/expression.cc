@@ -98,20 +98,23 @@ namespace tetradapt::core
   struct Expression::Implementation
   {
     std::string           text, what;
-    std::array<double, 4> variables{{0., 0., 0., 0.}};
+    Variables             known;
+    std::array<double, 7> variables{};
     mu::Parser            parser;
-    bool                  constant = false;
+    bool                  constant = false, normal = false;
 
-    Implementation(const std::string &text, const std::string &what) : text(text), what(what)
+    Implementation(const std::string &text, const std::string &what, const Variables known)
+      : text(text), what(what), known(known)
     {
+      const bool with_normal = known == Variables::point_and_normal;
       if (text.find_first_not_of(" \t\n\r") == std::string::npos)
         throw InputError(what + ": the expression is empty. Give a function of x, y, z and t.");
       check_expression_syntax(text, what);
       try
         {
           define_names(parser);
-          const char *names[] = {"x", "y", "z", "t"};
-          for (unsigned int i = 0; i < 4; ++i)
+          const char *names[] = {"x", "y", "z", "t", "nx", "ny", "nz"};
+          for (unsigned int i = 0; i < (with_normal ? 7 : 4); ++i)
             parser.DefineVar(names[i], &variables[i]);
           parser.SetExpr(with_selector_points(text));
           parser.Eval();
@@ -121,13 +124,16 @@ namespace tetradapt::core
             throw InputError(what + ": '" + text + "' has " + std::to_string(n_values)
                              + " values separated by commas where one is wanted. Components of a "
                                "vector are separated by semicolons.");
-          constant = parser.GetUsedVar().empty();
+          const auto used = parser.GetUsedVar();
+          constant        = used.empty();
+          normal          = used.count("nx") + used.count("ny") + used.count("nz") > 0;
         }
       catch (const mu::Parser::exception_type &error)
         {
           throw InputError(what + ": the expression '" + text
-                           + "' cannot be read: " + error.GetMsg()
-                           + " Known are x, y, z, t, pi, e, if(c,a,b), box, sphere, "
+                           + "' cannot be read: " + error.GetMsg() + " Known are x, y, z, t, "
+                           + (with_normal ? "nx, ny, nz, " : "")
+                           + "pi, e, if(c,a,b), box, sphere, "
                              "cylinder, half_space and the functions and operators of muParser.");
         }
       catch (const SelectorError &error)
@@ -138,13 +144,17 @@ namespace tetradapt::core
     }
   };
 
-  Expression::Expression(const std::string &text, const std::string &what)
-    : implementation(std::make_unique<Implementation>(text, what))
+  Expression::Expression(const std::string &text,
+                         const std::string &what,
+                         const Variables    variables)
+    : implementation(std::make_unique<Implementation>(text, what, variables))
   {
   }
 
   Expression::Expression(const Expression &other)
-    : Expression(other.implementation->text, other.implementation->what)
+    : Expression(other.implementation->text,
+                 other.implementation->what,
+                 other.implementation->known)
   {
   }
 
@@ -164,9 +174,23 @@ namespace tetradapt::core
   double
   Expression::operator()(const Point<3> &point, double t) const
   {
-    auto &v = implementation->variables;
-    v       = {{point[0], point[1], point[2], t}};
-    double value;
+    implementation->variables = {{point[0], point[1], point[2], t, 0., 0., 0.}};
+    return evaluate(point);
+  }
+
+  double
+  Expression::operator()(const Point<3> &point, const Tensor<1, 3> &normal) const
+  {
+    implementation->variables
+      = {{point[0], point[1], point[2], 0., normal[0], normal[1], normal[2]}};
+    return evaluate(point);
+  }
+
+  double
+  Expression::evaluate(const Point<3> &point) const
+  {
+    const double t = implementation->variables[3];
+    double       value;
     try
       {
         value = implementation->parser.Eval();
@@ -207,6 +231,12 @@ namespace tetradapt::core
     return implementation->constant;
   }
 
+  bool
+  Expression::uses_normal() const
+  {
+    return implementation->normal;
+  }
+
   const std::string &
   Expression::text() const
   {
@@ -214,10 +244,11 @@ namespace tetradapt::core
   }
 
   VectorExpression::VectorExpression(const std::array<std::string, 3> &texts,
-                                     const std::string                &what)
-    : components{{Expression(texts[0], what + ", component x"),
-                  Expression(texts[1], what + ", component y"),
-                  Expression(texts[2], what + ", component z")}}
+                                     const std::string                &what,
+                                     const Expression::Variables       variables)
+    : components{{Expression(texts[0], what + ", component x", variables),
+                  Expression(texts[1], what + ", component y", variables),
+                  Expression(texts[2], what + ", component z", variables)}}
   {
   }
 
@@ -228,6 +259,22 @@ namespace tetradapt::core
     for (unsigned int c = 0; c < 3; ++c)
       value[c] = components[c](point, t);
     return value;
+  }
+
+  Tensor<1, 3>
+  VectorExpression::operator()(const Point<3> &point, const Tensor<1, 3> &normal) const
+  {
+    Tensor<1, 3> value;
+    for (unsigned int c = 0; c < 3; ++c)
+      value[c] = components[c](point, normal);
+    return value;
+  }
+
+  bool
+  VectorExpression::uses_normal() const
+  {
+    return components[0].uses_normal() || components[1].uses_normal()
+           || components[2].uses_normal();
   }
 
   bool

@@ -3,6 +3,7 @@
 
 #include "tetradapt/core/expression.h"
 #include "tetradapt/estimate/equilibrated_projection.h"
+#include "tetradapt/mesh/surface_point.h"
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -47,10 +48,11 @@ namespace tetradapt::estimate
     void
     integrate(const FaceRule                       &rule,
               const mesh::TetMesh                  &mesh,
-              const mesh::BoundaryFace             &face,
+              const unsigned int                    f,
               const std::vector<const FaceForce *> &forces,
               FaceLoad                             &load)
     {
+      const mesh::BoundaryFace   &face = mesh.faces[f];
       const Tensor<1, 3>          area = mesh::face_area_vector(mesh, face);
       const double                size = area.norm();
       std::vector<Tensor<1, 3>>   traction(rule.weights.size());
@@ -62,7 +64,9 @@ namespace tetradapt::estimate
             x += rule.points[q][i] * Tensor<1, 3>(mesh.points[face.vertices[i]]);
           for (const FaceForce *force : forces)
             {
-              const Tensor<1, 3> given = force->value(x);
+              const Tensor<1, 3> given = force->value.uses_normal()
+                                           ? force->value(x, mesh::surface_point(mesh, f, x).normal)
+                                           : force->value(x);
               traction[q] += force->pressure ? -given[0] / size * area : given;
             }
           for (unsigned int c = 0; c < 3; ++c)
@@ -104,7 +108,10 @@ namespace tetradapt::estimate
             = pressure ? std::array<std::string, 3>{{load.value[0], "0", "0"}} : load.value;
           tractions.emplace(
             "Loads/" + load.name,
-            FaceForce{core::VectorExpression(texts, "Loads/" + load.name + "/Value"), pressure});
+            FaceForce{core::VectorExpression(texts,
+                                             "Loads/" + load.name + "/Value",
+                                             core::Expression::Variables::point_and_normal),
+                      pressure});
         }
     std::vector<unsigned char>                  held(mesh.patches.size(), 0);
     std::vector<std::vector<const FaceForce *>> forces(mesh.patches.size());
@@ -125,7 +132,7 @@ namespace tetradapt::estimate
         const unsigned int patch = mesh.faces[f].patch;
         loads[f].held            = held[patch];
         if (!forces[patch].empty() && held[patch] != 7)
-          integrate(rule, mesh, mesh.faces[f], forces[patch], loads[f]);
+          integrate(rule, mesh, f, forces[patch], loads[f]);
       }
     return loads;
   }

@@ -3,6 +3,7 @@
 
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/mechanics/supports.h"
+#include "tetradapt/mesh/surface_point.h"
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -61,7 +62,10 @@ namespace tetradapt::mechanics
       const bool        pressure = load.type == scene::LoadType::pressure;
       const auto        texts
         = pressure ? std::array<std::string, 3>{{load.value[0], "0", "0"}} : load.value;
-      const core::VectorExpression value(texts, what);
+      const core::VectorExpression value(texts,
+                                         what,
+                                         core::Expression::Variables::point_and_normal);
+      const bool                   uses_normal = value.uses_normal();
       for (unsigned int f = 0; f < mesh.faces.size(); ++f)
         {
           if (!carries(mesh, mesh.faces[f], load))
@@ -75,7 +79,8 @@ namespace tetradapt::mechanics
                 x += shapes.barycentric[q][i] * Tensor<1, 3>(mesh.points[v[i]]);
               // The rule's weights sum to 1/2, the area of the unit triangle.
               const double       weight = 2. * shapes.quadrature.weight(q);
-              const Tensor<1, 3> given  = value(x);
+              const Tensor<1, 3> given
+                = uses_normal ? value(x, mesh::surface_point(mesh, f, x).normal) : value(x);
               const Tensor<1, 3> force
                 = weight * (pressure ? -given[0] * area : area.norm() * given);
               for (unsigned int i = 0; i < shapes.n_nodes; ++i)

@@ -56,6 +56,15 @@ namespace tetradapt::mesh
     return {size, way / size};
   }
 
+  std::optional<SurfacePoint>
+  TriangulatedSurface::foot(const Point<3> &point, double length) const
+  {
+    const auto foot = nearest.nearest(point);
+    if (foot.point.distance(point) > length)
+      return std::nullopt;
+    return SurfacePoint{foot.point, foot.normal};
+  }
+
   ZeroSet::ZeroSet(const std::string &function, unsigned int number)
     : place("Mesh/Projection functions " + std::to_string(number)),
       function(function, "Mesh/Projection functions, number " + std::to_string(number))
@@ -86,6 +95,15 @@ namespace tetradapt::mesh
     if (!(size > 0.))
       return {};
     return {value / size, gradient / size};
+  }
+
+  std::optional<SurfacePoint>
+  ZeroSet::foot(const Point<3> &point, const double length) const
+  {
+    const auto found = find_foot(point, {this}, {}, length);
+    if (!found)
+      return std::nullopt;
+    return SurfacePoint{*found, plane_near(*found, length).normal};
   }
 
   std::optional<Point<3>>

@@ -4,6 +4,7 @@
 
 #include "tetradapt/core/expression.h"
 #include "tetradapt/geometry/nearest_surface.h"
+#include "tetradapt/mesh/surface_point.h"
 
 #include <functional>
 #include <optional>
@@ -41,6 +42,15 @@ namespace tetradapt::mesh
     virtual LocalPlane
     plane_near(const Point<3> &point, double length) const = 0;
 
+    /** The foot of @p point, which is within @p length of the surface, and the normal there, of
+     * either sign; none if it is not found. */
+    virtual std::optional<SurfacePoint>
+    foot(const Point<3> &point, double length) const = 0;
+
+    /** Whether the normal changes in steps, from one triangle to the next. */
+    virtual bool
+    has_steps() const = 0;
+
     /** The nearest point on a sharp edge; none if there is none. */
     virtual std::optional<Point<3>>
     nearest_on_crease(const Point<3> &) const
@@ -65,6 +75,13 @@ namespace tetradapt::mesh
     }
     LocalPlane
     plane_near(const Point<3> &point, double length) const override;
+    std::optional<SurfacePoint>
+    foot(const Point<3> &point, double length) const override;
+    bool
+    has_steps() const override
+    {
+      return true;
+    }
     std::optional<Point<3>>
     nearest_on_crease(const Point<3> &point) const override
     {
@@ -89,6 +106,13 @@ namespace tetradapt::mesh
     }
     LocalPlane
     plane_near(const Point<3> &point, double length) const override;
+    std::optional<SurfacePoint>
+    foot(const Point<3> &point, double length) const override;
+    bool
+    has_steps() const override
+    {
+      return false;
+    }
 
   private:
     std::string      place;

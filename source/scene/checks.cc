@@ -3,8 +3,6 @@
 
 #include "values.h"
 
-#include "tetradapt/core/expression.h"
-
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -13,9 +11,12 @@
 namespace tetradapt::scene
 {
   bool
-  constant_value(const std::string &text, const std::string &what, double &value)
+  constant_value(const std::string                &text,
+                 const std::string                &what,
+                 double                           &value,
+                 const core::Expression::Variables variables)
   {
-    const core::Expression expression(text, what);
+    const core::Expression expression(text, what, variables);
     if (!expression.is_constant())
       return false;
     value = expression(core::Point<3>());
@@ -23,10 +24,12 @@ namespace tetradapt::scene
   }
 
   void
-  check_expression(const std::string &text, const std::string &what)
+  check_expression(const std::string                &text,
+                   const std::string                &what,
+                   const core::Expression::Variables variables)
   {
     double value;
-    constant_value(text, what, value);
+    constant_value(text, what, value, variables);
   }
 
   void

@@ -3,6 +3,7 @@
 #define tetradapt_scene_checks_h
 
 #include "tetradapt/core/exceptions.h"
+#include "tetradapt/core/expression.h"
 
 #include <string>
 #include <vector>
@@ -22,11 +23,16 @@ namespace tetradapt::scene
   /** Whether @p text is an expression without variables; @p value gets its value.
    * @throws InputError if it is no expression, or constant but not finite. */
   bool
-  constant_value(const std::string &text, const std::string &what, double &value);
+  constant_value(const std::string          &text,
+                 const std::string          &what,
+                 double                     &value,
+                 core::Expression::Variables variables = core::Expression::Variables::point);
 
   /** @throws InputError if @p text is no expression, or constant but not finite. */
   void
-  check_expression(const std::string &text, const std::string &what);
+  check_expression(const std::string          &text,
+                   const std::string          &what,
+                   core::Expression::Variables variables = core::Expression::Variables::point);
 
   /** An edge length given as an expression; a constant must be positive. */
   void

@@ -124,7 +124,9 @@ namespace tetradapt::scene
              values,
              value_codec(),
              "Expressions in x, y, z, t: three separated by semicolons for a vector, one for a "
-             "pressure or a temperature.");
+             "pressure or a temperature. A traction or a pressure may also use nx, ny, nz, the "
+             "unit normal that points out of the body: that of the surface which Mesh/Projection "
+             "names at the nearest point, else that of the face of the mesh.");
       if (!binder.parsing())
         return;
 
@@ -272,10 +274,13 @@ namespace tetradapt::scene
   {
     const std::string path = "Loads/" + name;
     check_selector(selector, path);
+    const bool has_normal = type == LoadType::traction || type == LoadType::pressure;
     for (unsigned int c = 0; c < (is_scalar(type) ? 1u : 3u); ++c)
       check_expression(value[c],
                        path + "/Value"
-                         + (is_scalar(type) ? "" : std::string(", component ") + "xyz"[c]));
+                         + (is_scalar(type) ? "" : std::string(", component ") + "xyz"[c]),
+                       has_normal ? core::Expression::Variables::point_and_normal
+                                  : core::Expression::Variables::point);
   }
 
   void

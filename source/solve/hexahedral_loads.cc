@@ -73,7 +73,9 @@ namespace tetradapt::solve
       const bool pressure = load.type == scene::LoadType::pressure;
       const auto texts
         = pressure ? std::array<std::string, 3>{{load.value[0], "0", "0"}} : load.value;
-      const core::VectorExpression value(texts, "Loads/" + load.name + "/Value");
+      const core::VectorExpression value(texts,
+                                         "Loads/" + load.name + "/Value",
+                                         core::Expression::Variables::point_and_normal);
       const Line                   line(space.degree);
       for_selected_sides(forest, "Loads/" + load.name, [&](unsigned int c, unsigned int side) {
         const HexahedralCell     &cell = forest.cells()[c];
@@ -84,15 +86,15 @@ namespace tetradapt::solve
           for (unsigned int t = 0; t < line.gauss.size(); ++t)
             {
               Point<3> unit;
-              unit[axis]         = side % 2;
-              unit[first]        = line.point(s);
-              unit[second]       = line.point(t);
-              Tensor<1, 3> force = value(cell.at(unit));
+              unit[axis]   = side % 2;
+              unit[first]  = line.point(s);
+              unit[second] = line.point(t);
+              Tensor<1, 3> normal;
+              normal[axis]       = side % 2 == 1 ? 1. : -1.;
+              Tensor<1, 3> force = value(cell.at(unit), normal);
               if (pressure)
                 {
-                  const double p = force[0];
-                  force          = Tensor<1, 3>();
-                  force[axis]    = side % 2 == 1 ? -p : p;
+                  force = -force[0] * normal;
                 }
               force *= area * line.gauss.weight(s) * line.gauss.weight(t);
               for_side_nodes(line.n, side, [&](unsigned int place, unsigned int i, unsigned int j) {

@@ -4,6 +4,7 @@
 
 #include "tetradapt/core/expression.h"
 #include "tetradapt/mechanics/material_map.h"
+#include "tetradapt/mesh/surface_point.h"
 
 namespace tetradapt::compare
 {
@@ -48,11 +49,16 @@ namespace tetradapt::compare
       return !patches[mesh.faces[face].patch].loads.empty();
     }
 
-    /** Sum of the tractions and pressures on boundary face @p face, force per area;
-     * zero on a free face. Valid for the known components.
-     * @param normal of the face, outward, of length one. */
+    /** Sum of the tractions and pressures on boundary face @p face, force per area, as they
+     * load the discrete problem; zero on a free face. Valid for the known components.
+     * @param point on the face; nx, ny, nz are those of mesh::surface_point().
+     * @param normal of the face, outward, of length one, for pressures. */
     Tensor<1, 3>
     traction(unsigned int face, const Point<3> &point, const Tensor<1, 3> &normal) const;
+
+    /** The same on the true surface of the body, at a point over boundary face @p face. */
+    Tensor<1, 3>
+    surface_traction(unsigned int face, const mesh::SurfacePoint &at) const;
 
     /** Whether a body force or weight acts anywhere. */
     bool
@@ -69,14 +75,21 @@ namespace tetradapt::compare
     /** An expression, evaluated once where it is a constant. */
     struct Value
     {
-      Value(const std::array<std::string, 3> &texts, const std::string &what);
+      Value(const std::array<std::string, 3> &texts,
+            const std::string                &what,
+            core::Expression::Variables       variables = core::Expression::Variables::point);
       Tensor<1, 3>
       operator()(const Point<3> &point) const
       {
         return is_constant ? constant : expression(point);
       }
+      Tensor<1, 3>
+      operator()(const mesh::SurfacePoint &at) const
+      {
+        return is_constant ? constant : expression(at.point, at.normal);
+      }
       core::VectorExpression expression;
-      bool                   is_constant;
+      bool                   is_constant, uses_normal;
       Tensor<1, 3>           constant;
     };
     struct FaceLoad

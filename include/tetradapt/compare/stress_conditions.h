@@ -5,6 +5,7 @@
 #include "tetradapt/compare/cell_stress.h"
 #include "tetradapt/compare/given_loads.h"
 #include "tetradapt/compare/recovery_patches.h"
+#include "tetradapt/mesh/face_table.h"
 
 namespace tetradapt::compare
 {
@@ -18,6 +19,11 @@ namespace tetradapt::compare
    * displacement, which u_h interpolates: (t_i t_j) : C^-1 (sigma - sigma_h) = 0 for two
    * tangents, times 2 mu, so that it is a stress. In each cell's centre, weighted with
    * inner_weight: div sigma + f = 0, times the size of the patch.
+   *
+   * Where the boundary is projected on a surface, that is the body's: points and normals of
+   * sigma n = t are its own (mesh::surface_point()). Facets differ from it by angles of the order
+   * of their size; with their normals, of which a patch has several, the condition would be
+   * wrong by that times the stress along the wall.
    *
    * The weights were measured by indices of effectivity of degree 2. Where the stress is
    * singular at the boundary, on a cantilever and on an L-shaped solid, a boundary weight of
@@ -37,14 +43,26 @@ namespace tetradapt::compare
       unsigned int local_face; ///< of its cell: the vertex that it lies opposite
       unsigned int n_points;
       /** The centre; or three points, each nearer to one of the vertices in
-       * mesh::face_vertices. */
+       * mesh::face_vertices; or one of these three, where each has a normal of its own. */
       Point<3> points[3];
-      double   right[3][6]; ///< matrix s_x
+      /** Which of the three it is, if it is one alone; else invalid_unsigned_int. */
+      unsigned int corner;
+      double       right[3][6]; ///< matrix s_x
 
       /** matrix s_x at any point of the face, continued from the points as a constant
        * or a linear function. */
       void
       right_at(const mesh::Barycentric &b, double *result) const;
+
+      /** How much the condition counts at a point of the face: one, or a share of one
+       * for one of three points. */
+      double
+      weight_at(const mesh::Barycentric &b) const
+      {
+        return corner == dealii::numbers::invalid_unsigned_int
+                 ? 1.
+                 : b[mesh::face_vertices[local_face][corner]];
+      }
     };
 
     /** For the mesh that @p u_h lives on: one point a face for degree 1, three for
