@@ -2,6 +2,7 @@
 #include "tetradapt/adapt/driver.h"
 
 #include "tetradapt/adapt/cycle_estimates.h"
+#include "tetradapt/adapt/solution_record.h"
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/on_first_rank.h"
 #include "tetradapt/mesh/mesh_checks.h"
@@ -91,7 +92,7 @@ namespace tetradapt::adapt
       log.warning("last cycle: " + doubt.what + " " + doubt.advice);
     core::on_first_rank(communicator, [&]() {
       for (Observer *observer : observers)
-        observer->run_done(decision.text);
+        observer->run_done(decision);
     });
     if (decision.success)
       log.info(decision.text);
@@ -183,12 +184,13 @@ namespace tetradapt::adapt
     Cycle cycle;
     cycle.record.cycle = number;
     cycle.record.mesh  = current.record;
+    std::shared_ptr<const solve::StaticSystem> system;
     {
       const auto                scope = timer.scope("solve");
       solve::StaticSystem::Stop stop;
       if (stops_early)
         stop.algebraic_error = scene.solver.solver_error_fraction * predicted_error;
-      const auto system = std::make_shared<solve::StaticSystem>(
+      system = std::make_shared<solve::StaticSystem>(
         scene, *materials, mesh, scene.degree, communicator, in_cycle(number));
       cycle.solution = system->solve(start.get(), stop);
       // The energy is 2 F - a without displacements that are prescribed: StaticSolution.
@@ -196,8 +198,6 @@ namespace tetradapt::adapt
                         ? -0.5 * cycle.solution.energy
                         : 0.5 * cycle.solution.energy - cycle.solution.external_work,
                       cycle.solution.algebraic_error};
-      if (keeps_system)
-        cycle.solution.system = system;
     }
     cycle.record.points           = mesh->n_points();
     cycle.record.tets             = mesh->n_cells();
@@ -218,6 +218,16 @@ namespace tetradapt::adapt
       for (const Doubt &doubt : doubts)
         log.warning("cycle " + std::to_string(number) + ": " + doubt.what);
     }
+    {
+      const auto        scope = timer.scope("reactions");
+      const std::string warning
+        = describe_solution(*system, cycle.solution, *materials, communicator, cycle.record);
+      if (!warning.empty())
+        log.warning(warning);
+    }
+    if (keeps_system)
+      cycle.solution.system = system;
+    system.reset();
     cycle.comparison = std::make_unique<estimate::Comparison>(
       cycle.solution.displacement, *materials, scene.exact_solution, sampling, communicator);
     return cycle;

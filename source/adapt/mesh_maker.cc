@@ -6,10 +6,12 @@
 #include "tetradapt/core/on_first_rank.h"
 #include "tetradapt/mesh/body_complex.h"
 #include "tetradapt/mesh/boundary_projection.h"
+#include "tetradapt/mesh/face_table.h"
 #include "tetradapt/mesh/mesh_broadcast.h"
 #include "tetradapt/mesh/mesh_factory.h"
 #include "tetradapt/mesh/red_refinement.h"
 
+#include <algorithm>
 #include <sstream>
 
 namespace tetradapt::adapt
@@ -40,8 +42,13 @@ namespace tetradapt::adapt
                           "without spoiling a tetrahedron; the next mesh tries again.");
         }
       if (first_volume == 0.)
-        first_volume = mesh::total_volume(mesh);
+        {
+          first_volume = mesh::total_volume(mesh);
+          body_volume  = projection == nullptr ? first_volume : projection->body_volume(mesh);
+        }
       describe_mesh(mesh, first_volume, made.record);
+      made.record.n_parts     = n_parts;
+      made.record.body_volume = body_volume;
       compare_with_true_volume(mesh);
       return mesh;
     });
@@ -61,9 +68,11 @@ namespace tetradapt::adapt
   }
 
   mesh::TetMesh
-  MeshMaker::initial_mesh(const unsigned int number, NewMesh &made) const
+  MeshMaker::initial_mesh(const unsigned int number, NewMesh &made)
   {
-    mesh::TetMesh mesh = mesh::make_mesh(scene, number, log);
+    mesh::TetMesh mesh  = mesh::make_mesh(scene, number, log);
+    const auto    parts = mesh::connected_components(mesh);
+    n_parts             = 1 + *std::max_element(parts.begin(), parts.end());
     if (scene.mesh.size_field.empty())
       return mesh;
     log.progress("TetGen refines to Mesh/Size field");

@@ -79,6 +79,7 @@ namespace tetradapt::adapt
         record.max_aspect_ratio = std::max(record.max_aspect_ratio, quality.aspect_ratio);
         ++record.dihedral_histogram[dihedral_class(quality.min_dihedral)];
       }
+    record.volume       = volume;
     record.volume_drift = volume / first_volume - 1.;
     record.counts_by_id = counts_line(mesh);
   }

@@ -6,12 +6,14 @@
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/on_first_rank.h"
 #include "tetradapt/core/printable.h"
+#include "tetradapt/report/answer.h"
 #include "tetradapt/report/convergence_table.h"
 #include "tetradapt/report/log_sinks.h"
 #include "tetradapt/report/mesh_report.h"
 #include "tetradapt/report/mesh_summary.h"
 #include "tetradapt/report/output_directory.h"
 #include "tetradapt/report/plots.h"
+#include "tetradapt/report/reactions.h"
 #include "tetradapt/report/results.h"
 #include "tetradapt/report/size_field_file.h"
 #include "tetradapt/report/vtu_series.h"
@@ -63,6 +65,8 @@ namespace tetradapt::cli
           observers.push_back(std::make_unique<report::ConvergenceTable>(tables, rows, log));
         observers.push_back(std::make_unique<report::MeshReport>(tables, log));
         observers.push_back(std::make_unique<report::ResultsSummary>(tables, log));
+        if (tables != nullptr)
+          observers.push_back(std::make_unique<report::ReactionsTable>(*tables));
         if (scene.output.plots)
           observers.push_back(std::make_unique<report::RunPlots>(directory.files(), log));
         if (scene.output.size_field)
@@ -98,10 +102,10 @@ namespace tetradapt::cli
       }
 
       void
-      run_done(const std::string &reason) override
+      run_done(const adapt::StopDecision &decision) override
       {
         const auto whole = uninterrupted();
-        tell([&](adapt::Observer &observer) { observer.run_done(reason); });
+        tell([&](adapt::Observer &observer) { observer.run_done(decision); });
       }
 
       /** Puts an error in the log and closes it; the terminal gets the error from the
@@ -118,16 +122,21 @@ namespace tetradapt::cli
         close_anyhow();
       }
 
-      /** Closes the log and tells what there is to look at. */
+      /** Says where the files are and gives the run's answer, its last lines: in the log,
+       * which is closed, and on the terminal. */
       void
       finish()
       {
+        log.detail(directory.files_to_look_at());
+        log.info(directory.files_in_short());
+        terminal.reset();
+        log.info(answer.text());
         {
           const auto whole = uninterrupted();
           close();
         }
-        log.detail(directory.files_to_look_at());
-        log.info(directory.files_in_short());
+        if (!options.quiet && !options.brief)
+          std::cout << '\n' << answer.text() << std::flush;
         check_output();
       }
 
@@ -145,6 +154,7 @@ namespace tetradapt::cli
       {
         for (const auto &observer : observers)
           action(*observer);
+        action(answer);
         for (adapt::Observer *observer : more)
           action(*observer);
       }
@@ -204,6 +214,7 @@ namespace tetradapt::cli
       report::OutputDirectory                       directory;
       report::LogFile                               log_file;
       std::vector<std::unique_ptr<adapt::Observer>> observers;
+      report::Answer                                answer;
       std::vector<adapt::Observer *>                more;
       std::atomic<unsigned int>                     n_cycles{0};
     };

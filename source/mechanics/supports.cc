@@ -40,9 +40,11 @@ namespace tetradapt::mechanics
       {
       }
 
-      void
+      /** Returns the number of the pair in PrescribedDisplacement::held_nodes. */
+      unsigned int
       add_node(unsigned int support, unsigned int node, const core::VectorExpression &displacement)
       {
+        result.held_nodes.push_back({node, support, supports[support].components, 0.});
         const Point<3>     x     = position(mesh, edges, node);
         const Tensor<1, 3> value = displacement(x);
         for (unsigned int c = 0; c < 3; ++c)
@@ -54,6 +56,7 @@ namespace tetradapt::mechanics
               result.values[node][c] = value[c];
               owners[node][c]        = support;
             }
+        return result.held_nodes.size() - 1;
       }
 
     private:
@@ -127,19 +130,21 @@ namespace tetradapt::mechanics
       {
         const core::VectorExpression displacement(supports[s].displacement,
                                                   "Supports/" + supports[s].name + "/Displacement");
-        std::vector<bool>            done(n_nodes, false);
+        std::vector<unsigned int>    held(n_nodes, dealii::numbers::invalid_unsigned_int);
         for (unsigned int f = 0; f < mesh.faces.size(); ++f)
           {
             const auto &selections = mesh.patches[mesh.faces[f].patch].selections;
             if (std::find(selections.begin(), selections.end(), "Supports/" + supports[s].name)
                 == selections.end())
               continue;
+            const double area = mesh::face_area_vector(mesh, mesh.faces[f]).norm();
             for (unsigned int i = 0; i < n_per_face; ++i)
-              if (!done[face_nodes[f][i]])
-                {
-                  done[face_nodes[f][i]] = true;
-                  prescriber.add_node(s, face_nodes[f][i], displacement);
-                }
+              {
+                const unsigned int node = face_nodes[f][i];
+                if (held[node] == dealii::numbers::invalid_unsigned_int)
+                  held[node] = prescriber.add_node(s, node, displacement);
+                result.held_nodes[held[node]].area += area;
+              }
           }
       }
     check_rigid_motions(mesh, result);

@@ -2,6 +2,7 @@
 #include "tetradapt/mesh/boundary_projection.h"
 
 #include "curved_faces.h"
+#include "curved_volume.h"
 #include "selection_borders.h"
 
 #include "tetradapt/core/exceptions.h"
@@ -269,6 +270,17 @@ namespace tetradapt::mesh
   BoundaryProjection::true_volume() const
   {
     return volume;
+  }
+
+  double
+  BoundaryProjection::body_volume(const TetMesh &mesh) const
+  {
+    if (volume > 0.)
+      return volume;
+    std::vector<const CurvedSurface *> of_patch;
+    for (const unsigned int s : surfaces_of_patches(mesh, surfaces))
+      of_patch.push_back(s == none ? nullptr : surfaces[s].get());
+    return curved_volume(mesh, of_patch);
   }
 
   std::unique_ptr<BoundaryProjection>

@@ -34,13 +34,15 @@ namespace tetradapt::report
     csv_row_of(const adapt::CycleRecord &record)
     {
       const adapt::MeshRecord &mesh = record.mesh;
-      std::string line = std::to_string(record.cycle) + "," + std::to_string(record.points) + ","
-                         + std::to_string(record.tets) + ","
-                         + format_cell(Kind::figure, mesh.requested_tets, 10, -1, "") + ","
-                         + std::to_string(mesh.oversized_tets) + "," + figure(visible_drift(mesh))
-                         + "," + figure(mesh.largest_projection) + ","
-                         + std::to_string(mesh.unprojected_points) + "," + figure(mesh.min_dihedral)
-                         + "," + figure(mesh.max_dihedral) + "," + figure(mesh.max_aspect_ratio);
+      std::string              line
+        = std::to_string(record.cycle) + "," + std::to_string(record.points) + ","
+          + std::to_string(record.tets) + ","
+          + format_cell(Kind::figure, mesh.requested_tets, 10, -1, "") + ","
+          + std::to_string(mesh.oversized_tets) + "," + figure(visible_drift(mesh)) + ","
+          + figure(mesh.volume) + "," + (mesh.body_volume > 0. ? figure(mesh.body_volume) : "")
+          + "," + std::to_string(mesh.n_parts) + "," + figure(mesh.largest_projection) + ","
+          + std::to_string(mesh.unprojected_points) + "," + figure(mesh.min_dihedral) + ","
+          + figure(mesh.max_dihedral) + "," + figure(mesh.max_aspect_ratio);
       for (const unsigned long count : mesh.dihedral_histogram)
         line += "," + std::to_string(count);
       return line + "," + csv_text(mesh.counts_by_id) + "\n";
@@ -89,7 +91,7 @@ namespace tetradapt::report
   csv_meshes(const std::vector<adapt::CycleRecord> &records)
   {
     std::string text
-      = "cycle,points,tets,requested_tets,oversized_tets,volume_drift,"
+      = "cycle,points,tets,requested_tets,oversized_tets,volume_drift,volume,body_volume,parts,"
         "largest_projection,unprojected_points,min_dihedral,max_dihedral,max_aspect_ratio";
     for (unsigned int i = 0; i < dihedral_class_begins.size(); ++i)
       text += "," + dihedral_class_name(i);

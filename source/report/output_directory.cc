@@ -32,6 +32,8 @@ namespace tetradapt::report
                                     "study.csv",
                                     "study.txt",
                                     "mesh.csv",
+                                    "reactions.csv",
+                                    "regions.csv",
                                     "size_field.vtu",
                                     "parameters.prm",
                                     "log.txt",

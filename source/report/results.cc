@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/report/results.h"
 
+#include "tetradapt/report/reactions.h"
 #include "tetradapt/report/record_columns.h"
 
 #include <algorithm>
@@ -74,6 +75,51 @@ namespace tetradapt::report
     return results;
   }
 
+  std::vector<Result>
+  results_of_solution(const adapt::CycleRecord &record)
+  {
+    std::vector<Result> results;
+    const auto          add = [&](const std::string &name, const double value) {
+      results.push_back({name, {}, value, {}, {}, ""});
+    };
+    const adapt::MeshRecord &mesh = record.mesh;
+    if (mesh.volume > 0. && mesh.body_volume > 0.)
+      results.push_back(
+        {"volume", mesh.body_volume, mesh.volume, mesh.body_volume - mesh.volume, {}, "body"});
+    else if (mesh.volume > 0.)
+      add("volume", mesh.volume);
+    if (mesh.n_parts > 0)
+      add("parts", mesh.n_parts);
+    double mass = 0.;
+    for (const mechanics::RegionFigures &region : record.regions)
+      {
+        const std::string name = "region " + std::to_string(region.region);
+        mass += region.mass;
+        add(name + " max displacement", region.displacement.value);
+        add(name + " max von Mises stress", region.von_mises.value);
+      }
+    if (mass > 0.)
+      add("mass", mass);
+    if (!record.equilibrium)
+      return results;
+    const auto add_vector = [&](const std::string &name, const dealii::Tensor<1, 3> &vector) {
+      for (unsigned int c = 0; c < 3; ++c)
+        add(name + " " + "xyz"[c], vector[c]);
+    };
+    const auto add_all = [&](const std::string &kind, const std::vector<solve::ActingForce> &list) {
+      for (const solve::ActingForce &acting : list)
+        {
+          add_vector(kind + " " + acting.name + " force", acting.resultant.force);
+          add_vector(kind + " " + acting.name + " moment", acting.resultant.moment);
+        }
+    };
+    add_all("support", record.equilibrium->supports);
+    add_all("load", record.equilibrium->loads);
+    add("relative imbalance", record.equilibrium->relative_imbalance);
+    add("allowed imbalance", record.equilibrium->allowed_imbalance);
+    return results;
+  }
+
   std::string
   csv_results(const std::vector<Result> &results)
   {
@@ -133,18 +179,23 @@ namespace tetradapt::report
   }
 
   void
-  ResultsSummary::run_done(const std::string &)
+  ResultsSummary::run_done(const adapt::StopDecision &)
   {
-    const auto results = last ? results_of(scene, *last) : std::vector<Result>();
-    if (results.empty())
+    if (!last)
       return;
-    const std::string table = text_results(results);
-    log.info("Results of cycle " + std::to_string(last->cycle) + ":\n"
-             + table.substr(0, table.size() - 1));
-    if (folder != nullptr)
-      {
-        folder->write("results.csv", csv_results(results));
-        folder->write("results.txt", table);
-      }
+    auto        results = results_of(scene, *last);
+    std::string table   = results.empty() ? "" : text_results(results);
+    if (!results.empty())
+      log.info("Results of cycle " + std::to_string(last->cycle) + ":\n"
+               + table.substr(0, table.size() - 1));
+    const auto more = results_of_solution(*last);
+    results.insert(results.end(), more.begin(), more.end());
+    if (results.empty() || folder == nullptr)
+      return;
+    table += (table.empty() ? "" : "\n") + text_regions(last->regions);
+    if (last->equilibrium)
+      table += '\n' + text_reactions(*last->equilibrium);
+    folder->write("results.csv", csv_results(results));
+    folder->write("results.txt", table);
   }
 } // namespace tetradapt::report

@@ -87,7 +87,7 @@ namespace tetradapt::report
   }
 
   void
-  RunPlots::run_done(const std::string &)
+  RunPlots::run_done(const adapt::StopDecision &)
   {
     PictureFolder pictures(folder, log);
     for (const NamedPlot &plot : plots_of_run(scene, records))

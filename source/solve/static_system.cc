@@ -2,6 +2,7 @@
 #include "tetradapt/solve/static_system.h"
 
 #include "tetradapt/mechanics/loads.h"
+#include "tetradapt/mechanics/reactions.h"
 #include "tetradapt/solve/energies.h"
 #include "tetradapt/solve/linear_solver.h"
 #include "tetradapt/solve/mixed_solver.h"
@@ -48,6 +49,24 @@ namespace tetradapt::solve
                    + algebraic_noise * result.algebraic_error;
       return norm;
     }
+
+    /** Sum of the lengths of @p forces at the free unknowns. */
+    double
+    free_magnitude(const DisplacementSpace                 &space,
+                   const mechanics::PrescribedDisplacement &prescribed,
+                   const Vector                            &forces)
+    {
+      double sum = 0.;
+      for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
+        {
+          dealii::Tensor<1, 3> force;
+          for (unsigned int c = 0; c < 3; ++c)
+            if (!prescribed.is_fixed(space.field_node(node), c))
+              force[c] = forces.local_element(3 * node + c);
+          sum += force.norm();
+        }
+      return dealii::Utilities::MPI::sum(sum, space.communicator());
+    }
   } // namespace
 
   struct StaticSystem::Data
@@ -58,8 +77,8 @@ namespace tetradapt::solve
          unsigned int                         degree,
          MPI_Comm                             communicator,
          const core::Log                     &caller_log)
-      : materials(materials), mesh(std::move(mesh_pointer)), degree(degree), log(caller_log),
-        edges(edges_for(*mesh, degree)),
+      : scene(scene), materials(materials), mesh(std::move(mesh_pointer)), degree(degree),
+        log(caller_log), edges(edges_for(*mesh, degree)),
         prescribed(mechanics::prescribe(scene.supports, *mesh, edges.get())),
         kept(materials.is_mixed()
                ? std::make_unique<mechanics::MaterialMap>(kept_scene(scene), *mesh)
@@ -68,7 +87,7 @@ namespace tetradapt::solve
     {
       space = std::make_unique<DisplacementSpace>(partition, degree, edges.get());
       log.progress("assembling " + std::to_string(space->n_dofs()) + " unknowns");
-      forces = mechanics::nodal_forces(scene, kept ? *kept : materials, *space);
+      add_up_loads();
       solver = std::make_unique<LinearSolver>(LinearModel{partition, *space, tangents, prescribed},
                                               scene.solver,
                                               log);
@@ -77,6 +96,41 @@ namespace tetradapt::solve
           = std::make_unique<MixedSolver>(MixedModel{*space, materials, prescribed, *solver},
                                           scene.solver,
                                           log);
+    }
+
+    /** Sets the forces of all loads together, and the resultant of each. */
+    void
+    add_up_loads()
+    {
+      const mechanics::MaterialMap &stiff = kept ? *kept : materials;
+      scene::Scene                  part; // of which the loads are looked at
+      const NodalValues             thermal = mechanics::nodal_forces(part, stiff, *space);
+      forces                                = thermal;
+      for (const auto &load : scene.loads)
+        {
+          load_resultants.emplace_back();
+          if (load.type == scene::LoadType::temperature)
+            continue; // all of them together are in the thermal forces, which have no resultant
+          part.loads           = {load};
+          const NodalValues of = mechanics::nodal_forces(part, stiff, *space);
+          for (unsigned int node = 0; node < space->n_owned_nodes(); ++node)
+            {
+              const unsigned int         field_node = space->field_node(node);
+              const dealii::Tensor<1, 3> force      = of[field_node] - thermal[field_node];
+              forces[field_node] += force;
+              load_resultants.back().add(position(field_node), force);
+            }
+          load_resultants.back() = mechanics::sum(load_resultants.back(), space->communicator());
+        }
+    }
+
+    dealii::Point<3>
+    position(const unsigned int node) const
+    {
+      if (node < mesh->n_points())
+        return mesh->points[node];
+      const auto &edge = edges->edges[node - mesh->n_points()];
+      return mesh->points[edge[0]] + 0.5 * (mesh->points[edge[1]] - mesh->points[edge[0]]);
     }
 
     /** The unknowns with a value of @p free where they are free, if it is not null,
@@ -97,6 +151,7 @@ namespace tetradapt::solve
       return x;
     }
 
+    const scene::Scene                    &scene;
     const mechanics::MaterialMap          &materials;
     std::shared_ptr<const mesh::TetMesh>   mesh;
     unsigned int                           degree;
@@ -109,6 +164,7 @@ namespace tetradapt::solve
     mechanics::TangentField                 tangents;
     std::unique_ptr<DisplacementSpace>      space;
     NodalValues                             forces; ///< of the loads, on the nodes owned
+    std::vector<mechanics::Resultant>       load_resultants;
     std::unique_ptr<LinearSolver>           solver;
     std::unique_ptr<MixedSolver>            mixed_solver; ///< mixed form only
   };
@@ -162,6 +218,7 @@ namespace tetradapt::solve
     solution.iterations_to_tolerance = result.iterations_to_residual;
     solution.algebraic_error         = result.algebraic_error;
     solution.solver                  = result.description;
+    solution.load_magnitude          = free_magnitude(space, data->prescribed, right_hand_side);
     space.gather(x, values);
 
     const Energies energies
@@ -210,6 +267,20 @@ namespace tetradapt::solve
     NodalValues whole;
     space.gather(owned, whole);
     return whole;
+  }
+
+  Equilibrium
+  StaticSystem::equilibrium(const StaticSolution                        &solution,
+                            const std::vector<mechanics::RegionFigures> &regions) const
+  {
+    return compute_equilibrium({data->scene,
+                                *data->space,
+                                data->materials,
+                                data->prescribed,
+                                data->forces,
+                                data->load_resultants},
+                               solution,
+                               regions);
   }
 
   const mechanics::PrescribedDisplacement &

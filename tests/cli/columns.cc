@@ -6,6 +6,7 @@
 #include "tetradapt/report/convergence_table.h"
 #include "tetradapt/report/mesh_report.h"
 #include "tetradapt/report/plots.h"
+#include "tetradapt/report/reactions.h"
 #include "tetradapt/report/results.h"
 
 #include <algorithm>
@@ -96,6 +97,8 @@ main()
   const auto columns = report::possible_columns({"USERS-estimator"}, {"USERS-goal"}, true);
   compare("`convergence.csv`, `convergence.txt`", parts_of(report::csv_heading(columns), ','));
   compare("`mesh.csv`", parts_of(first_line(report::csv_meshes({})), ','));
+  compare("`reactions.csv`", parts_of(first_line(report::csv_reactions({})), ','));
+  compare("`regions.csv`", parts_of(first_line(report::csv_regions({})), ','));
   compare("`results.csv`, `results.txt`", parts_of(first_line(report::csv_results({})), ','));
 
   scene::Scene study;

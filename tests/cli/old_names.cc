@@ -84,10 +84,10 @@ end
     refuse("subsection Adaptivity\n  set Route = node sizes\nend\n");
     refuse("subsection Solver\n\n  set Algebraic fraction = 0.2\nend\n");
     for (const std::string setting : {"Truth/Displacement=0; 0; 0",
-                                       "Truth/Energy=3",
-                                       "Adaptivity/Driver=spr",
-                                       "Adaptivity/Route=node sizes",
-                                       "Solver/Algebraic fraction=0.2"})
+                                      "Truth/Energy=3",
+                                      "Adaptivity/Driver=spr",
+                                      "Adaptivity/Route=node sizes",
+                                      "Solver/Algebraic fraction=0.2"})
       {
         refuse(body, {setting});
         const auto equals = setting.find('=');

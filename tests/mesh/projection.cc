@@ -57,6 +57,9 @@ namespace
   {
     TetMesh mesh = mesh::read_volume_mesh(SOURCE_DIR "/../../meshes/sphere_octant.msh");
     projection.assign(mesh);
+    std::cout << "volume of the body from its first mesh: error below 1e-6 "
+              << (std::abs(projection.body_volume(mesh) / true_volume - 1.) < 1e-6 ? "yes" : "NO")
+              << '\n';
     std::cout << "patches:";
     for (const auto &patch : mesh.patches)
       std::cout << " [" << mesh::describe(patch) << "]";

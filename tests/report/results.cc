@@ -3,6 +3,7 @@
 // What a run says in the end of what is known, and of its meshes: from known records.
 
 #include "tetradapt/report/results.h"
+#include "tetradapt/adapt/stopping.h"
 #include "tetradapt/report/mesh_report.h"
 
 #include <filesystem>
@@ -92,7 +93,7 @@ main()
   worse.cycle              = 3;
   worse.acceptance         = adapt::Acceptance::rejected;
   summary.cycle_done({worse, field, materials, nullptr, nullptr});
-  summary.run_done("because");
+  summary.run_done({});
   std::cout << "files agree: "
             << (content("results_scratch/results.csv") == report::csv_results(results))
             << (content("results_scratch/results.txt") == report::text_results(results)) << '\n';
@@ -104,7 +105,7 @@ main()
   worse.error_source = adapt::ErrorSource::none;
   summary.run_started(scene);
   summary.cycle_done({worse, field, materials, nullptr, nullptr});
-  summary.run_done("because");
+  summary.run_done({});
   std::cout << "nothing known, no files: " << !fs::exists("results_scratch/results.csv")
             << !fs::exists("results_scratch/results.txt") << '\n';
   fs::remove_all("results_scratch");

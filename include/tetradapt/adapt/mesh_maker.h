@@ -56,7 +56,7 @@ namespace tetradapt::adapt
     NewMesh
     make(const std::function<mesh::TetMesh(NewMesh &)> &how, bool project);
     mesh::TetMesh
-    initial_mesh(unsigned int number, NewMesh &made) const;
+    initial_mesh(unsigned int number, NewMesh &made);
     mesh::TetMesh
     refine(const mesh::TetMesh &old, const SizeField &field) const;
     mesh::TetMesh
@@ -72,6 +72,8 @@ namespace tetradapt::adapt
     mesh::Tetgen                                    tetgen;
     std::unique_ptr<const mesh::BoundaryProjection> projection;        ///< first rank; may be null
     double                                          first_volume = 0.; ///< first rank
+    double                                          body_volume  = 0.; ///< first rank
+    unsigned int                                    n_parts      = 0;  ///< first rank
   };
 } // namespace tetradapt::adapt
 

@@ -5,6 +5,7 @@
 #include "tetradapt/mechanics/material_map.h"
 #include "tetradapt/mesh/nodal_field.h"
 #include "tetradapt/scene/scene.h"
+#include "tetradapt/solve/equilibrium.h"
 
 #include <array>
 #include <optional>
@@ -50,7 +51,12 @@ namespace tetradapt::adapt
     double                largest_projection = 0.; ///< farthest way of a point to the boundary
     unsigned long         unprojected_points = 0;  ///< not moved, as a cell would be inverted
     double                min_dihedral = 0., max_dihedral = 0.; ///< degrees
-    double                max_aspect_ratio = 0.;
+    double                volume = 0.;
+    /** Volume of the body: of the first mesh, or inside the surfaces that the boundary is
+     * projected onto; 0: unknown. */
+    double       body_volume      = 0.;
+    unsigned int n_parts          = 0; ///< that hang together across faces; 0: unknown
+    double       max_aspect_ratio = 0.;
     /** Cells by their smallest dihedral angle: below 5, 10, 20, 30, 40, 50, 60, and
      * above degrees. */
     std::array<unsigned long, 8> dihedral_histogram{};
@@ -106,6 +112,10 @@ namespace tetradapt::adapt
     std::vector<EstimateRecord> estimates; ///< the refinement indicator first
     std::vector<GoalRecord>     goals;
     MeshRecord                  mesh;
+    /** Reactions and loads, and how they balance. */
+    std::optional<solve::Equilibrium> equilibrium;
+    /** What is in each region, and the largest displacement and stress there. */
+    std::vector<mechanics::RegionFigures> regions;
     double seconds_mesh = 0., seconds_solve = 0., seconds_estimate = 0., seconds_total = 0.;
   };
 
@@ -135,6 +145,8 @@ namespace tetradapt::adapt
     const std::vector<double> *node_sizes = nullptr;
   };
 
+  struct StopDecision;
+
   /** Watches a run. Called on MPI rank 0 only. */
   class Observer
   {
@@ -149,9 +161,9 @@ namespace tetradapt::adapt
     cycle_done(const CycleEvent &)
     {
     }
-    /** @p reason says why the loop stopped, for the user. */
+    /** @p decision says why the loop stopped. */
     virtual void
-    run_done(const std::string & /*reason*/)
+    run_done(const StopDecision & /*decision*/)
     {
     }
   };

@@ -7,11 +7,22 @@
 
 namespace tetradapt::mechanics
 {
+  /** A node that a support holds. */
+  struct HeldNode
+  {
+    unsigned int        node;       ///< of the field
+    unsigned int        support;    ///< index into the scene's supports
+    std::array<bool, 3> components; ///< those that this support prescribes
+    double              area;       ///< of the support's faces that have the node
+  };
+
   /** The displacement components that the supports prescribe, a node each. */
   struct PrescribedDisplacement
   {
     std::vector<unsigned char>        fixed;  ///< bit c is set: component c is prescribed
     std::vector<dealii::Tensor<1, 3>> values; ///< prescribed values, zero elsewhere
+    /** Which support holds which node, each pair once: a node may have several. */
+    std::vector<HeldNode> held_nodes;
 
     bool
     is_fixed(unsigned int node, unsigned int component) const

@@ -83,7 +83,7 @@ namespace tetradapt::report
     void
     cycle_done(const adapt::CycleEvent &event) override;
     void
-    run_done(const std::string &reason) override;
+    run_done(const adapt::StopDecision &decision) override;
 
   private:
     /** Indicators of the first, the middle and the last cycle that had some. */

@@ -37,6 +37,12 @@ namespace tetradapt::report
   std::vector<Result>
   results_of(const scene::Scene &scene, const adapt::CycleRecord &record);
 
+  /** What else is known of the solution of @p record: volume against that of the body, mass, parts,
+   * the largest figures of each region, forces and moments of supports and loads, and their
+   * imbalance. */
+  std::vector<Result>
+  results_of_solution(const adapt::CycleRecord &record);
+
   /** results.csv: a row a result, 10 significant digits, nothing where a figure is not
    * known. */
   std::string
@@ -48,8 +54,8 @@ namespace tetradapt::report
 
   /**
    * Says in the end what the run has found: the results of the last cycle that was
-   * accepted go to the log and to results.csv and results.txt. Does nothing for a scene
-   * without an exact solution and goals.
+   * accepted go to results.csv and results.txt, and what is known exactly and goals also to the
+   * log.
    */
   class ResultsSummary : public adapt::Observer
   {
@@ -64,7 +70,7 @@ namespace tetradapt::report
     cycle_done(const adapt::CycleEvent &event) override;
     /** @throws InputError or NumericalError if a file cannot be written. */
     void
-    run_done(const std::string &reason) override;
+    run_done(const adapt::StopDecision &decision) override;
 
   private:
     ResultFolder                     *folder;

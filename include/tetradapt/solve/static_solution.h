@@ -34,6 +34,9 @@ namespace tetradapt::solve
     double       external_work = 0.;
     unsigned int iterations    = 0; ///< 0: direct solver
     std::string  solver;            ///< what solved it, for the log
+    /** Sum of the lengths of the nodal forces that the solver is given at free unknowns: of loads,
+     * thermal strain and prescribed displacements. Its tolerance is relative to them. */
+    double load_magnitude = 0.;
     /** Energy norm of what conjugate gradients left, as they estimated it; 0: direct. */
     double algebraic_error = 0.;
     /** Iterations that the residual's tolerance alone would have taken, predicted from

@@ -7,6 +7,7 @@
 #include "tetradapt/mechanics/supports.h"
 #include "tetradapt/mesh/nodal_field.h"
 #include "tetradapt/scene/scene.h"
+#include "tetradapt/solve/equilibrium.h"
 
 #include <mpi.h>
 
@@ -68,6 +69,12 @@ namespace tetradapt::solve
      * component also. Collective. */
     std::vector<dealii::Tensor<1, 3>>
     nodal_forces() const;
+
+    /** The reactions and the loads of a @p solution of this system, and how they balance.
+     * @param regions of the solution's mesh. Collective; the same on every rank. */
+    Equilibrium
+    equilibrium(const StaticSolution                        &solution,
+                const std::vector<mechanics::RegionFigures> &regions) const;
 
     /** What the supports prescribe at the nodes. */
     const mechanics::PrescribedDisplacement &

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_mechanics_reactions_h
+#define tetradapt_mechanics_reactions_h
+
+#include "tetradapt/mechanics/displacement_space.h"
+#include "tetradapt/mechanics/material_map.h"
+#include "tetradapt/mechanics/resultant.h"
+#include "tetradapt/mechanics/supports.h"
+
+namespace tetradapt::mechanics
+{
+  /** What the supports do to the body. */
+  struct Reactions
+  {
+    std::vector<Resultant>     supports; ///< one a support, in the order of the scene
+    std::vector<unsigned long> n_nodes;  ///< that each of them holds
+    /** Sum of the lengths of the reactions at the nodes. */
+    double magnitude = 0.;
+    /**
+     * a(v,v) for the three displacements v that are one in direction c where component c is
+     * free and zero where it is prescribed. The forces that a solver leaves on the free
+     * unknowns sum to (r, v), at most the energy norm of its error times the root of this: how
+     * far reactions can be from balancing the loads.
+     */
+    std::array<double, 3> layer_energy{};
+  };
+
+  /**
+   * The consistent reactions of a displacement, r = int sigma : grad N - F at every unknown that
+   * supports prescribe, with the stress sigma of @p displacement before thermal strain is taken
+   * off and the nodal forces F of all loads, thermal strain included. Their sum and that of the
+   * loads is zero, in forces and in moments, as far as the equations are solved; it does not
+   * depend on how good the mesh is. Only cells at supports are looked at.
+   *
+   * A reaction belongs to the support that prescribes the unknown. Where several do, it is
+   * divided in proportion to the area of the faces that each has at the node; equally, if none
+   * has any.
+   *
+   * @param forces F, one a field node, complete on the nodes that this rank owns.
+   * Collective; the same on every rank.
+   */
+  Reactions
+  compute_reactions(const DisplacementSpace                 &space,
+                    const MaterialMap                       &materials,
+                    const PrescribedDisplacement            &prescribed,
+                    const std::vector<dealii::Tensor<1, 3>> &forces,
+                    const mesh::NodalField                  &displacement,
+                    unsigned int                             n_supports);
+} // namespace tetradapt::mechanics
+
+#endif

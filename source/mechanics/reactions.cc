@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/mechanics/reactions.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tetradapt::mechanics
+{
+  namespace
+  {
+    using dealii::Point;
+
+    /** Barycentric coordinates of the rule with which the stiffness is integrated, whose points
+     * weigh the same: exact for the product of a stress and a gradient of shape functions. */
+    std::vector<mesh::Barycentric>
+    stiffness_points(const unsigned int degree)
+    {
+      if (degree == 1)
+        return {mesh::Barycentric{{.25, .25, .25, .25}}};
+      const double                   root = std::sqrt(5.);
+      std::vector<mesh::Barycentric> points(4);
+      for (unsigned int q = 0; q < 4; ++q)
+        {
+          points[q].fill((5. - root) / 20.);
+          points[q][q] = (5. + 3. * root) / 20.;
+        }
+      return points;
+    }
+
+    /** Adds up what the cells at supports do to the nodes there. */
+    class SupportedCells
+    {
+    public:
+      SupportedCells(const DisplacementSpace      &space,
+                     const MaterialMap            &materials,
+                     const PrescribedDisplacement &prescribed,
+                     const mesh::NodalField       &displacement)
+        : space(space), materials(materials), prescribed(prescribed), displacement(displacement),
+          points(stiffness_points(space.degree())), forces(space.n_owned_nodes())
+      {
+        for (const unsigned int cell : space.touching_cells())
+          if (is_supported(cell))
+            add(cell);
+      }
+
+      const DisplacementSpace       &space;
+      const MaterialMap             &materials;
+      const PrescribedDisplacement  &prescribed;
+      const mesh::NodalField        &displacement;
+      std::vector<mesh::Barycentric> points;
+      std::vector<Tensor<1, 3>>      forces; ///< of the stress, right at owned nodes that are held
+      std::array<double, 3>          layer_energy{};
+
+    private:
+      /** Supports hold the ends of an edge whose middle they hold. */
+      bool
+      is_supported(const unsigned int cell) const
+      {
+        const auto &vertices = space.tet_mesh().cells[cell];
+        return std::any_of(vertices.begin(), vertices.end(), [&](const unsigned int v) {
+          return prescribed.fixed[v] != 0;
+        });
+      }
+
+      void
+      add(const unsigned int cell)
+      {
+        const mesh::TetMesh         &mesh             = space.tet_mesh();
+        const unsigned int           n_nodes          = space.n_nodes_per_cell();
+        const auto                   lambda_gradients = mesh::barycentric_gradients(mesh, cell);
+        const double                 weight = mesh::cell_volume(mesh, cell) / points.size();
+        const bool                   counts = is_owned(mesh.cells[cell][0]); // on one rank only
+        std::array<Tensor<1, 3>, 10> gradients;
+        for (const mesh::Barycentric &point : points)
+          {
+            mesh::shape_gradients(space.degree(), point, lambda_gradients, gradients.data());
+            Tensor<2, 3> G;
+            for (unsigned int i = 0; i < n_nodes; ++i)
+              G += outer_product(displacement.values[space.cell_node(cell, i)], gradients[i]);
+            const SymmetricTensor<2, 3> stress = stress_at(cell, point, G);
+            for (unsigned int i = 0; i < n_nodes; ++i)
+              {
+                const unsigned int node = space.cell_node(cell, i);
+                if (prescribed.fixed[node] != 0 && is_owned(node))
+                  forces[space.local_node(node)] += weight * (stress * gradients[i]);
+              }
+            if (counts)
+              add_layer_energy(cell, gradients, weight);
+          }
+      }
+
+      /** One less where free is one where prescribed, with the sign changed: a rigid motion
+       * has no energy. */
+      void
+      add_layer_energy(const unsigned int                  cell,
+                       const std::array<Tensor<1, 3>, 10> &gradients,
+                       const double                        weight)
+      {
+        for (unsigned int c = 0; c < 3; ++c)
+          {
+            Tensor<2, 3> G;
+            for (unsigned int i = 0; i < space.n_nodes_per_cell(); ++i)
+              if (prescribed.is_fixed(space.cell_node(cell, i), c))
+                G[c] += gradients[i];
+            const SymmetricTensor<2, 3> strain = symmetrize(G);
+            const int                   region = space.tet_mesh().regions[cell];
+            layer_energy[c]
+              += weight
+                 * (displacement.pressure ? materials.pressure_form(region).stress(G, 0.) * strain
+                                          : materials.law(region).energy_density(strain));
+          }
+      }
+
+      SymmetricTensor<2, 3>
+      stress_at(const unsigned int       cell,
+                const mesh::Barycentric &point,
+                const Tensor<2, 3>      &G) const
+      {
+        const int region = space.tet_mesh().regions[cell];
+        return displacement.pressure
+                 ? materials.pressure_form(region).stress(G,
+                                                          displacement.pressure->value(cell, point))
+                 : materials.law(region).stress(G);
+      }
+
+      bool
+      is_owned(const unsigned int node) const
+      {
+        return space.local_node(node) < space.n_owned_nodes();
+      }
+    };
+
+    /** The weight with which a support counts at a node among @p begin to @p end that prescribe
+     * component @p c there; all sum to one. */
+    double
+    share(const HeldNode                              &held,
+          const std::vector<HeldNode>::const_iterator &begin,
+          const std::vector<HeldNode>::const_iterator &end,
+          const unsigned int                           c)
+    {
+      unsigned int n    = 0;
+      double       area = 0.;
+      for (auto other = begin; other != end; ++other)
+        if (other->components[c])
+          {
+            ++n;
+            area += other->area;
+          }
+      return n == 1 ? 1. : area > 0. ? held.area / area : 1. / n;
+    }
+  } // namespace
+
+  Reactions
+  compute_reactions(const DisplacementSpace                 &space,
+                    const MaterialMap                       &materials,
+                    const PrescribedDisplacement            &prescribed,
+                    const std::vector<dealii::Tensor<1, 3>> &forces,
+                    const mesh::NodalField                  &displacement,
+                    const unsigned int                       n_supports)
+  {
+    const SupportedCells  cells(space, materials, prescribed, displacement);
+    std::vector<HeldNode> held;
+    std::copy_if(prescribed.held_nodes.begin(),
+                 prescribed.held_nodes.end(),
+                 std::back_inserter(held),
+                 [&](const HeldNode &h) {
+                   return space.local_node(h.node) < space.n_owned_nodes();
+                 });
+    std::stable_sort(held.begin(), held.end(), [](const HeldNode &a, const HeldNode &b) {
+      return a.node < b.node;
+    });
+
+    Reactions result;
+    result.supports.resize(n_supports);
+    result.n_nodes.resize(n_supports, 0);
+    for (const HeldNode &h : prescribed.held_nodes) // the same on every rank
+      ++result.n_nodes[h.support];
+    for (auto begin = held.cbegin(); begin != held.cend();)
+      {
+        const unsigned int node = begin->node;
+        const auto         end
+          = std::find_if(begin, held.cend(), [&](const HeldNode &h) { return h.node != node; });
+        Tensor<1, 3> reaction = cells.forces[space.local_node(node)] - forces[node];
+        for (unsigned int c = 0; c < 3; ++c)
+          if (!prescribed.is_fixed(node, c))
+            reaction[c] = 0.;
+        result.magnitude += reaction.norm();
+        const Point<3> x = displacement.node_position(node);
+        for (auto h = begin; h != end; ++h)
+          {
+            Tensor<1, 3> part;
+            for (unsigned int c = 0; c < 3; ++c)
+              if (h->components[c])
+                part[c] = share(*h, begin, end, c) * reaction[c];
+            result.supports[h->support].add(x, part);
+          }
+        begin = end;
+      }
+    for (Resultant &support : result.supports)
+      support = sum(support, space.communicator());
+    result.magnitude = dealii::Utilities::MPI::sum(result.magnitude, space.communicator());
+    for (unsigned int c = 0; c < 3; ++c)
+      result.layer_energy[c]
+        = dealii::Utilities::MPI::sum(cells.layer_energy[c], space.communicator());
+    return result;
+  }
+} // namespace tetradapt::mechanics

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/mechanics/region_figures.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tetradapt::mechanics
+{
+  namespace
+  {
+    using dealii::Point;
+
+    /** Values that are equal but for this are held for the same. */
+    constexpr double alike = 1e-6;
+
+    /** Squares of the components of very small and very large stresses leave the range. */
+    double
+    von_mises(const SymmetricTensor<2, 3> &stress)
+    {
+      double scale = 0.;
+      for (unsigned int i = 0; i < 6; ++i)
+        scale = std::max(scale, std::abs(stress.access_raw_entry(i)));
+      if (scale == 0.)
+        return 0.;
+      const SymmetricTensor<2, 3> s     = stress / scale;
+      const double                xy    = s[0][0] - s[1][1];
+      const double                yz    = s[1][1] - s[2][2];
+      const double                zx    = s[2][2] - s[0][0];
+      const double                shear = s[0][1] * s[0][1] + s[1][2] * s[1][2] + s[0][2] * s[0][2];
+      return scale * std::sqrt(0.5 * (xy * xy + yz * yz + zx * zx) + 3. * shear);
+    }
+
+    /** Displacement gradients at the four corners of a cell of degree 2. */
+    std::array<Tensor<2, 3>, 4>
+    corner_gradients(const mesh::NodalField            &u,
+                     const unsigned int                 cell,
+                     const std::array<Tensor<1, 3>, 4> &directions)
+    {
+      std::array<Tensor<2, 3>, 4> result;
+      for (unsigned int i = 0; i < 4; ++i)
+        {
+          const Tensor<1, 3> &value = u.values[u.node(cell, i)];
+          for (unsigned int v = 0; v < 4; ++v)
+            result[v] += outer_product(v == i ? 3. * value : -value, directions[i]);
+        }
+      for (unsigned int e = 0; e < 6; ++e)
+        {
+          const auto &[i, j]       = mesh::edge_vertices[e];
+          const Tensor<1, 3> value = 4. * u.values[u.node(cell, 4 + e)];
+          result[i] += outer_product(value, directions[j]);
+          result[j] += outer_product(value, directions[i]);
+        }
+      return result;
+    }
+
+    /** Stresses of cells, thermal strain taken off. */
+    class Stresses
+    {
+    public:
+      Stresses(const mesh::NodalField &u, const MaterialMap &materials)
+        : u(u), materials(materials), thermal(materials.has_thermal_strain())
+      {
+      }
+
+      /** The largest von Mises stress of @p cell, and the corner that has it; 4: all. */
+      std::pair<double, unsigned int>
+      largest(const unsigned int cell)
+      {
+        enter(u.mesh().regions[cell]);
+        const auto directions = mesh::barycentric_gradients(u.mesh(), cell);
+        if (u.degree() == 1)
+          {
+            Tensor<2, 3> G;
+            for (unsigned int i = 0; i < 4; ++i)
+              G += outer_product(u.values[u.mesh().cells[cell][i]], directions[i]);
+            return {
+              von_mises(law->stress(thermal ? G - Tensor<2, 3>(mean_thermal_strain(cell)) : G)), 4};
+          }
+        auto         gradients = corner_gradients(u, cell, directions);
+        double       most      = -1.;
+        unsigned int corner    = 0;
+        for (unsigned int v = 0; v < 4; ++v)
+          {
+            if (thermal)
+              gradients[v] -= Tensor<2, 3>(
+                materials.thermal_strain(region, u.mesh().points[u.mesh().cells[cell][v]]));
+            // A pressure has no part in the deviator.
+            const double value
+              = von_mises(mixed ? form.stress(gradients[v], 0.) : law->stress(gradients[v]));
+            if (value > most)
+              {
+                most   = value;
+                corner = v;
+              }
+          }
+        return {most, corner};
+      }
+
+    private:
+      void
+      enter(const int number)
+      {
+        if (law != nullptr && number == region)
+          return;
+        region = number;
+        law    = &materials.law(region);
+        mixed  = u.pressure != nullptr;
+        if (mixed)
+          form = materials.pressure_form(region);
+      }
+
+      /** With the four points of the rule of degree 2, as report::cell_stress(). */
+      SymmetricTensor<2, 3>
+      mean_thermal_strain(const unsigned int cell) const
+      {
+        const double          root = std::sqrt(5.);
+        SymmetricTensor<2, 3> mean;
+        for (unsigned int q = 0; q < 4; ++q)
+          {
+            Point<3> x;
+            for (unsigned int i = 0; i < 4; ++i)
+              x += (i == q ? 5. + 3. * root : 5. - root) / 20.
+                   * Tensor<1, 3>(u.mesh().points[u.mesh().cells[cell][i]]);
+            mean += 0.25 * materials.thermal_strain(region, x);
+          }
+        return mean;
+      }
+
+      const mesh::NodalField &u;
+      const MaterialMap      &materials;
+      bool                    thermal, mixed = false;
+      int                     region = 0;
+      const ConstitutiveLaw  *law    = nullptr;
+      PressureForm            form{};
+    };
+
+    /** Numbers the regions of a mesh from 0. */
+    class RegionNumbers
+    {
+    public:
+      explicit RegionNumbers(const std::vector<int> &regions)
+      {
+        for (const int region : regions)
+          if (numbers.empty() || region != last->first)
+            last = numbers.emplace(region, 0).first;
+        unsigned int next = 0;
+        for (auto &entry : numbers)
+          entry.second = next++;
+        last = numbers.begin();
+      }
+      unsigned int
+      operator()(const int region)
+      {
+        if (last->first != region)
+          last = numbers.find(region);
+        return last->second;
+      }
+      const std::map<int, unsigned int> &
+      all() const
+      {
+        return numbers;
+      }
+
+    private:
+      std::map<int, unsigned int>           numbers;
+      std::map<int, unsigned int>::iterator last;
+    };
+
+    bool
+    is_before(const Point<3> &a, const Point<3> &b)
+    {
+      for (unsigned int d = 0; d < 3; ++d)
+        if (a[d] != b[d])
+          return a[d] < b[d];
+      return false;
+    }
+
+    /** A place among equals. */
+    struct Candidate
+    {
+      bool     is_there = false;
+      Point<3> place;
+
+      void
+      offer(const Point<3> &other)
+      {
+        if (!is_there || is_before(other, place))
+          place = other;
+        is_there = true;
+      }
+    };
+
+    /** Puts the first of all ranks' candidates in @p places. */
+    std::vector<Point<3>>
+    first_of_ranks(const std::vector<Candidate> &mine, const MPI_Comm communicator)
+    {
+      std::vector<double> values;
+      for (const Candidate &candidate : mine)
+        {
+          values.push_back(candidate.is_there ? 1. : 0.);
+          for (unsigned int d = 0; d < 3; ++d)
+            values.push_back(candidate.place[d]);
+        }
+      std::vector<Candidate> best(mine.size());
+      for (const auto &rank : dealii::Utilities::MPI::all_gather(communicator, values))
+        for (unsigned int k = 0; k < mine.size(); ++k)
+          if (rank[4 * k] > 0.)
+            best[k].offer(Point<3>(rank[4 * k + 1], rank[4 * k + 2], rank[4 * k + 3]));
+      std::vector<Point<3>> places;
+      for (const Candidate &candidate : best)
+        places.push_back(candidate.place);
+      return places;
+    }
+
+    std::vector<double>
+    lengths(const std::vector<Tensor<1, 3>> &values)
+    {
+      std::vector<double> result;
+      result.reserve(values.size());
+      // Not by squares, which vanish for very small displacements.
+      double scale = 0.;
+      for (const auto &value : values)
+        for (unsigned int c = 0; c < 3; ++c)
+          scale = std::max(scale, std::abs(value[c]));
+      for (const auto &value : values)
+        result.push_back(scale > 0. ? scale * (value / scale).norm() : 0.);
+      return result;
+    }
+
+    /** What a rank finds in its cells. */
+    class Search
+    {
+    public:
+      Search(const mesh::NodalField &u, const MaterialMap &materials, const MPI_Comm communicator)
+        : u(u), mesh(u.mesh()), communicator(communicator), numbers(mesh.regions)
+      {
+        const unsigned long n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
+        const unsigned long rank    = dealii::Utilities::MPI::this_mpi_process(communicator);
+        begin                       = mesh.n_cells() * rank / n_ranks;
+        end                         = mesh.n_cells() * (rank + 1) / n_ranks;
+        for (const auto &[region, number] : numbers.all())
+          {
+            RegionFigures figures;
+            figures.region = region;
+            if (const auto name = mesh.region_names.find(region); name != mesh.region_names.end())
+              figures.name = name->second;
+            result.push_back(figures);
+          }
+        displacement = lengths(u.values);
+        measure(materials);
+        find_places();
+        for (RegionFigures &figures : result)
+          figures.mass = materials.parameters(figures.region).density * figures.volume;
+      }
+
+      std::vector<RegionFigures> result;
+
+    private:
+      void
+      measure(const MaterialMap &materials)
+      {
+        Stresses stresses(u, materials);
+        stress.reserve(end - begin);
+        for (unsigned int cell = begin; cell < end; ++cell)
+          {
+            RegionFigures &figures = result[numbers(mesh.regions[cell])];
+            ++figures.n_cells;
+            figures.volume += mesh::cell_volume(mesh, cell);
+            stress.push_back(stresses.largest(cell));
+            figures.von_mises.value = std::max(figures.von_mises.value, stress.back().first);
+            for (unsigned int i = 0; i < u.n_nodes_per_cell(); ++i)
+              figures.displacement.value
+                = std::max(figures.displacement.value, displacement[u.node(cell, i)]);
+          }
+        for (RegionFigures &figures : result)
+          {
+            namespace MPI              = dealii::Utilities::MPI;
+            figures.n_cells            = MPI::sum(figures.n_cells, communicator);
+            figures.volume             = MPI::sum(figures.volume, communicator);
+            figures.von_mises.value    = MPI::max(figures.von_mises.value, communicator);
+            figures.displacement.value = MPI::max(figures.displacement.value, communicator);
+          }
+      }
+
+      void
+      find_places()
+      {
+        std::vector<Candidate> stressed(result.size()), displaced(result.size());
+        for (unsigned int cell = begin; cell < end; ++cell)
+          {
+            const unsigned int   number  = numbers(mesh.regions[cell]);
+            const RegionFigures &figures = result[number];
+            const auto &[value, corner]  = stress[cell - begin];
+            if (value >= (1. - alike) * figures.von_mises.value)
+              stressed[number].offer(corner < 4 ? mesh.points[mesh.cells[cell][corner]]
+                                                : centroid(cell));
+            const double least = (1. - alike) * figures.displacement.value;
+            for (unsigned int i = 0; i < u.n_nodes_per_cell(); ++i)
+              if (displacement[u.node(cell, i)] >= least)
+                displaced[number].offer(u.node_position(u.node(cell, i)));
+          }
+        const auto most_stressed  = first_of_ranks(stressed, communicator);
+        const auto most_displaced = first_of_ranks(displaced, communicator);
+        for (unsigned int k = 0; k < result.size(); ++k)
+          {
+            result[k].von_mises.place    = most_stressed[k];
+            result[k].displacement.place = most_displaced[k];
+          }
+      }
+
+      Point<3>
+      centroid(const unsigned int cell) const
+      {
+        Point<3> x;
+        for (const unsigned int p : mesh.cells[cell])
+          x += 0.25 * Tensor<1, 3>(mesh.points[p]);
+        return x;
+      }
+
+      const mesh::NodalField                      &u;
+      const mesh::TetMesh                         &mesh;
+      MPI_Comm                                     communicator;
+      RegionNumbers                                numbers;
+      unsigned int                                 begin = 0, end = 0;
+      std::vector<double>                          displacement; ///< lengths, one a node
+      std::vector<std::pair<double, unsigned int>> stress;       ///< of the rank's cells
+    };
+  } // namespace
+
+  std::vector<RegionFigures>
+  compute_region_figures(const mesh::NodalField &displacement,
+                         const MaterialMap      &materials,
+                         const MPI_Comm          communicator)
+  {
+    return Search(displacement, materials, communicator).result;
+  }
+} // namespace tetradapt::mechanics

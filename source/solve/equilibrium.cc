@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/solve/equilibrium.h"
+
+#include "tetradapt/mechanics/reactions.h"
+#include "tetradapt/scene/words.h"
+#include "tetradapt/solve/static_solution.h"
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tetradapt::solve
+{
+  namespace
+  {
+    using dealii::Point;
+    using dealii::Tensor;
+
+    /** More than this of all forces leaves reactions of less than four digits. */
+    constexpr double largest_imbalance = 1e-4;
+
+    /** What rounding leaves, also of a factorisation. */
+    constexpr double rounding = 1e-10;
+
+    /** Sum of forces on the nodes, and of their lengths. */
+    struct NodalSum
+    {
+      mechanics::Resultant resultant;
+      double               magnitude = 0.;
+    };
+
+    NodalSum
+    sum_of(const LoadedSystem &system, const mesh::NodalField &displacement)
+    {
+      NodalSum sum;
+      for (unsigned int node = 0; node < system.space.n_owned_nodes(); ++node)
+        {
+          const unsigned int  field_node = system.space.field_node(node);
+          const Tensor<1, 3> &force      = system.forces[field_node];
+          if (force == Tensor<1, 3>())
+            continue;
+          sum.resultant.add(displacement.node_position(field_node), force);
+          sum.magnitude += force.norm();
+        }
+      const MPI_Comm communicator = system.space.communicator();
+      return {mechanics::sum(sum.resultant, communicator),
+              dealii::Utilities::MPI::sum(sum.magnitude, communicator)};
+    }
+
+    void
+    list_forces(const LoadedSystem                          &system,
+                const mechanics::Reactions                  &reactions,
+                const std::vector<mechanics::RegionFigures> &regions,
+                Equilibrium                                 &result)
+    {
+      const scene::Scene           &scene = system.scene;
+      const mesh::TetMesh          &mesh  = system.space.tet_mesh();
+      const mechanics::PatchExtents patches(mesh);
+      for (unsigned int s = 0; s < scene.supports.size(); ++s)
+        {
+          const std::string &name   = scene.supports[s].name;
+          mechanics::Extent  extent = patches.of("Supports/" + name);
+          extent.n_nodes            = reactions.n_nodes[s];
+          result.supports.push_back({name, "support", reactions.supports[s], extent});
+        }
+      for (unsigned int l = 0; l < scene.loads.size(); ++l)
+        {
+          const scene::LoadParameters &load = scene.loads[l];
+          result.loads.push_back({load.name,
+                                  scene::word(load.type),
+                                  system.loads[l],
+                                  mechanics::acts_on_body(load.type)
+                                    ? mechanics::body_extent(load, mesh, regions)
+                                    : patches.of("Loads/" + load.name)});
+        }
+    }
+
+    /** Fills everything but the lists and the imbalance. */
+    void
+    judge(const LoadedSystem         &system,
+          const StaticSolution       &solution,
+          const mechanics::Reactions &reactions,
+          const double                load_magnitude,
+          Equilibrium                &result)
+    {
+      const auto [lower, upper] = mesh::bounding_box(system.space.tet_mesh());
+      const Point<3> centre     = lower + 0.5 * (upper - lower);
+      const double   tolerance  = std::max(system.scene.solver.tolerance, rounding);
+      result.lever              = 0.5 * (upper - lower).norm();
+      result.force_scale        = load_magnitude + reactions.magnitude;
+      if (result.force_scale <= 10. * tolerance * solution.load_magnitude)
+        result.force_scale = solution.load_magnitude;
+      if (result.force_scale == 0.)
+        return;
+      result.relative_imbalance
+        = std::max(result.imbalance.force.norm(),
+                   result.imbalance.moment_about(centre).norm() / result.lever)
+          / result.force_scale;
+      const auto  &layer = reactions.layer_energy;
+      const double left  = solution.algebraic_error * std::sqrt(layer[0] + layer[1] + layer[2]);
+      result.allowed_imbalance
+        = std::max(tolerance * std::max(1., solution.load_magnitude / result.force_scale),
+                   left / result.force_scale);
+      if (solution.iterations >= solution.iterations_to_tolerance)
+        result.allowed_imbalance = std::min(result.allowed_imbalance, largest_imbalance);
+    }
+  } // namespace
+
+  Equilibrium
+  compute_equilibrium(const LoadedSystem                          &system,
+                      const StaticSolution                        &solution,
+                      const std::vector<mechanics::RegionFigures> &regions)
+  {
+    const mechanics::Reactions reactions
+      = mechanics::compute_reactions(system.space,
+                                     system.materials,
+                                     system.prescribed,
+                                     system.forces,
+                                     *solution.displacement,
+                                     system.scene.supports.size());
+    Equilibrium    result;
+    const NodalSum loads = sum_of(system, *solution.displacement);
+    list_forces(system, reactions, regions, result);
+    result.imbalance = loads.resultant;
+    for (const ActingForce &support : result.supports)
+      result.imbalance += support.resultant;
+    judge(system, solution, reactions, loads.magnitude, result);
+    return result;
+  }
+} // namespace tetradapt::solve
