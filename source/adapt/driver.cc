@@ -2,6 +2,7 @@
 #include "tetradapt/adapt/driver.h"
 
 #include "tetradapt/adapt/cycle_estimates.h"
+#include "tetradapt/adapt/placement.h"
 #include "tetradapt/adapt/solution_record.h"
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/on_first_rank.h"
@@ -119,6 +120,7 @@ namespace tetradapt::adapt
           log.detail("Meshes are accepted without comparing their energy: " + reason + ".");
       }
     warn_of_flat_cells();
+    check_placement(scene, mesh, log);
     start.reset();
     predicted_error = 0.;
     log.info((number == 0 ? "Mesh: " : "Mesh " + std::to_string(number) + ": ")

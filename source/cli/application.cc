@@ -4,12 +4,15 @@
 #include "tetradapt/cli/check_inputs.h"
 #include "tetradapt/cli/load_scene.h"
 #include "tetradapt/cli/outcome.h"
+#include "tetradapt/cli/preview.h"
 #include "tetradapt/cli/run_scene.h"
 #include "tetradapt/cli/run_study.h"
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/interrupt_watcher.h"
 #include "tetradapt/core/printable.h"
 #include "tetradapt/mechanics/constitutive_law.h"
+#include "tetradapt/report/log_sinks.h"
+#include "tetradapt/report/output_directory.h"
 #include "tetradapt/scene/plan.h"
 
 #include <deal.II/base/mpi.h>
@@ -114,17 +117,19 @@ namespace tetradapt::cli
               = scene.variations.empty() ? std::vector<StudyRun>() : load_study(scene, options);
             if (!print)
               return;
-            try
+            core::Log                  log;
+            const report::TerminalSink terminal(log, std::cerr, {});
+            scene::Mistakes            mistakes;
+            if (runs.empty())
               {
-                if (runs.empty())
-                  check_inputs(scene);
-                else
-                  check_study_inputs(scene, runs);
+                scene::Mistakes found;
+                check_inputs(scene, found, log);
+                mistakes.merge(found,
+                               [&](const auto &message) { return scene.with_place(message); });
               }
-            catch (const core::InputError &error)
-              {
-                throw core::InputError(scene.with_place(error.what()));
-              }
+            else
+              check_study_inputs(scene, runs, mistakes, log);
+            mistakes.throw_if_any(file);
             for (const auto &warning : scene.warnings())
               std::cerr << core::printable("warning: " + warning) << '\n';
             if (!options.quiet)
@@ -212,6 +217,40 @@ namespace tetradapt::cli
       return outcome.code;
     }
 
+    /** Shows where a scene, or the first run of a study, acts. */
+    void
+    preview_file(const std::string &file, const Options &options)
+    {
+      const scene::Scene scene     = load_scene(file, options);
+      const auto         directory = report::OutputDirectory::path_of(scene);
+      try
+        {
+          if (scene.variations.empty())
+            preview(scene, directory, options.quiet, MPI_COMM_WORLD);
+          else
+            preview(load_study(scene, options).front().scene,
+                    directory,
+                    options.quiet,
+                    MPI_COMM_WORLD);
+        }
+      catch (const core::InputError &error)
+        {
+          throw core::InputError(scene.with_place(error.what()));
+        }
+    }
+
+    int
+    preview_all(const Options &options)
+    {
+      MPI_Comm control;
+      MPI_Comm_dup(MPI_COMM_WORLD, &control);
+      int worst = Outcome::done;
+      for (const auto &file : options.scenes)
+        worst = std::max(worst, conclude(attempt([&] { preview_file(file, options); }), control));
+      MPI_Comm_free(&control);
+      return worst;
+    }
+
     int
     run(const Options &options, const RunOptions &run_options)
     {
@@ -277,6 +316,7 @@ namespace tetradapt::cli
         }
       case Options::Action::validate:
         return validate(options, launch.first);
+      case Options::Action::preview:
       case Options::Action::run:
         break;
       }
@@ -296,6 +336,7 @@ namespace tetradapt::cli
     ignore_write_signals(); // some library that MPI starts undoes it
     core::InterruptWatcher interrupts(end_by_signal);
     run_options.interrupts = &interrupts;
-    return run(options, run_options);
+    return options.action == Options::Action::preview ? preview_all(options)
+                                                      : run(options, run_options);
   }
 } // namespace tetradapt::cli

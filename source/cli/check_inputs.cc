@@ -1,49 +1,144 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/cli/check_inputs.h"
 
+#include "tetradapt/adapt/placement.h"
 #include "tetradapt/adapt/saved_sizes.h"
-#include "tetradapt/geometry/surface_checks.h"
-#include "tetradapt/geometry/surface_io.h"
+#include "tetradapt/core/condition.h"
 #include "tetradapt/mechanics/material_map.h"
 #include "tetradapt/mesh/boundary_projection.h"
 #include "tetradapt/mesh/mesh_factory.h"
+#include "tetradapt/mesh/outline.h"
 #include "tetradapt/mesh/selection.h"
 #include "tetradapt/mesh/volume_reader.h"
 #include "tetradapt/mesh/vtu_reader.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tetradapt::cli
 {
   namespace
   {
-    void
-    check_mesh(const scene::Scene &scene)
+    /** Whether the scene says all of its meshes, so that none has to be generated. */
+    bool
+    has_given_meshes(const scene::MeshParameters &mesh)
     {
-      const scene::MeshParameters &mesh    = scene.mesh;
-      const bool                   refined = !mesh.size.empty()
+      const bool refined = !mesh.size.empty()
                            || std::any_of(mesh.volume_bounds.begin(),
                                           mesh.volume_bounds.end(),
                                           [](double bound) { return bound > 0.; });
-      if (mesh.source == scene::MeshSource::bricks
-          || (mesh.source == scene::MeshSource::file && !refined))
+      return mesh.source == scene::MeshSource::bricks
+             || (mesh.source == scene::MeshSource::file && !refined);
+    }
+
+    /** Checks the names of groups, ids and regions. */
+    void
+    check_all_names(const scene::Scene  &scene,
+                    const mesh::TetMesh &outline,
+                    scene::Mistakes     &mistakes)
+    {
+      const auto selectors = mesh::face_selectors(scene);
+      for (const auto &[name, selector] : selectors)
+        mistakes.attempt([&, &name = name, &selector = selector]() {
+          mesh::check_names(outline, name, selector);
+        });
+      mistakes.attempt([&]() { const mechanics::MaterialMap materials(scene, outline); });
+      for (const auto &load : scene.loads)
         {
-          for (unsigned int number = 0; number < mesh.n_meshes(); ++number)
-            const mechanics::MaterialMap materials(scene,
-                                                   mesh::make_mesh(scene, number, core::Log()));
-          return;
+          const std::string name = "Loads/" + load.name;
+          if (std::none_of(selectors.begin(), selectors.end(), [&](const auto &entry) {
+                return entry.first == name;
+              }))
+            mistakes.attempt([&]() {
+              mechanics::resolve_regions(load.selector.ids, load.selector.groups, outline, name);
+            });
         }
-      const auto projection = mesh::make_projection(scene);
-      for (const std::string &file : mesh.files)
-        if (mesh.source == scene::MeshSource::surface)
-          geometry::check_surface(geometry::read_surface(file), file);
-        else if (mesh.source == scene::MeshSource::file)
-          {
-            mesh::TetMesh                read = mesh::read_volume_mesh(file);
-            const mechanics::MaterialMap materials(scene, read);
-            if (projection != nullptr)
-              projection->assign(read);
-          }
+    }
+
+    /** Asks each condition at points all over the surface. */
+    void
+    check_conditions(const scene::Scene  &scene,
+                     const mesh::TetMesh &outline,
+                     scene::Mistakes     &mistakes,
+                     const core::Log     &log)
+    {
+      constexpr double   wanted_points = 2000.;
+      const unsigned int n_parts
+        = std::max(1., std::ceil(std::sqrt(2. * wanted_points / outline.faces.size())));
+      std::vector<mesh::Point<3>> points;
+      for (const auto &face : outline.faces)
+        {
+          const auto on_face = mesh::points_on(outline, face, n_parts);
+          points.insert(points.end(), on_face.begin(), on_face.end());
+        }
+      for (const auto &[name, selector] : mesh::face_selectors(scene))
+        if (!selector.where.empty())
+          mistakes.attempt([&, &name = name, &selector = selector]() {
+            const core::Condition condition(selector.where, name + "/Where");
+            const auto found = std::count_if(points.begin(), points.end(), [&](const auto &p) {
+              return condition.holds(p);
+            });
+            if (found == 0)
+              log.warning(scene.with_place(
+                name + "/Where: '" + selector.where + "' holds at none of "
+                + std::to_string(points.size())
+                + " points all over the surface. Look with --preview whether it finds any face."));
+          });
+    }
+
+    /** As mesh::make_mesh(), but an empty selection does not hide the others. */
+    void
+    check_given_mesh(const scene::Scene &scene,
+                     const unsigned int  number,
+                     scene::Mistakes    &mistakes,
+                     const core::Log    &log)
+    {
+      const core::Log silent;
+      if (mistakes.attempt([&]() {
+            const auto body
+              = std::make_shared<mesh::TetMesh>(mesh::make_mesh(scene, number, silent));
+            mistakes.attempt([&]() { adapt::check_placement(scene, body, log); });
+          }))
+        return;
+      const auto only = [&](const auto &keep) {
+        scene::Scene part = scene;
+        part.supports.clear();
+        part.loads.clear();
+        part.goals.clear();
+        keep(part);
+        mistakes.attempt([&]() { mesh::make_mesh(part, number, silent); });
+      };
+      for (const auto &support : scene.supports)
+        only([&](scene::Scene &part) { part.supports.push_back(support); });
+      for (const auto &load : scene.loads)
+        only([&](scene::Scene &part) { part.loads.push_back(load); });
+      for (const auto &goal : scene.goals)
+        only([&](scene::Scene &part) { part.goals.push_back(goal); });
+    }
+
+    void
+    check_mesh(const scene::Scene &scene,
+               const unsigned int  number,
+               scene::Mistakes    &mistakes,
+               const core::Log    &log)
+    {
+      const bool    given = has_given_meshes(scene.mesh);
+      mesh::TetMesh outline;
+      if (!mistakes.attempt([&]() { outline = mesh::outline(scene.mesh, number); }))
+        return;
+      scene::Mistakes found;
+      check_all_names(scene, outline, found);
+      if (!given)
+        check_conditions(scene, outline, found, log);
+      if (given && found.empty())
+        check_given_mesh(scene, number, found, log);
+      else if (!given)
+        found.attempt([&]() {
+          const auto projection = mesh::make_projection(scene);
+          if (projection != nullptr && scene.mesh.source == scene::MeshSource::file)
+            projection->assign(outline);
+        });
+      mistakes.merge(found);
     }
 
     void
@@ -63,11 +158,16 @@ namespace tetradapt::cli
   } // namespace
 
   void
-  check_inputs(const scene::Scene &scene)
+  check_inputs(const scene::Scene &scene, scene::Mistakes &mistakes, const core::Log &log)
   {
-    check_mesh(scene);
+    // A list of volume bounds is one body.
+    const unsigned int n_bodies = has_given_meshes(scene.mesh)
+                                    ? scene.mesh.n_meshes()
+                                    : std::max<unsigned int>(1, scene.mesh.files.size());
+    for (unsigned int number = 0; number < n_bodies; ++number)
+      check_mesh(scene, number, mistakes, log);
     if (!scene.mesh.size_field.empty())
-      const adapt::SavedSizes sizes(scene.mesh.size_field);
-    check_reference(scene);
+      mistakes.attempt([&]() { const adapt::SavedSizes sizes(scene.mesh.size_field); });
+    mistakes.attempt([&]() { check_reference(scene); });
   }
 } // namespace tetradapt::cli

@@ -15,14 +15,17 @@ namespace tetradapt::cli
   namespace
   {
     void
-    check_laws(const scene::Scene &scene)
+    check_laws(const scene::Scene &scene, scene::Mistakes &mistakes)
     {
-      const auto laws = mechanics::law_names();
+      const auto      laws = mechanics::law_names();
+      scene::Mistakes found;
       for (const auto &material : scene.materials)
-        if (std::find(laws.begin(), laws.end(), material.law) == laws.end())
-          throw core::InputError(scene.with_place("Materials/" + material.name
-                                                  + "/Law: there is no law '" + material.law + "'. "
-                                                  + scene::suggest(material.law, laws)));
+        if (mistakes.readable("Materials/" + material.name))
+          found.require(std::find(laws.begin(), laws.end(), material.law) != laws.end(),
+                        "Materials/" + material.name + "/Law",
+                        "there is no law '" + material.law + "'. "
+                          + scene::suggest(material.law, laws));
+      mistakes.merge(found, [&](const auto &message) { return scene.with_place(message); });
     }
 
     /** @p text as a part of a folder's name: other characters than letters, digits, '.', '_'
@@ -71,16 +74,20 @@ namespace tetradapt::cli
   scene::Scene
   load_scene(const std::string &file, const Options &options)
   {
-    scene::Scene scene = scene::read_scene(file, options.settings);
-    check_laws(scene);
+    scene::Mistakes mistakes;
+    scene::Scene    scene = scene::read_scene(file, options.settings, mistakes);
+    check_laws(scene, mistakes);
     if (!options.output_directory.empty())
       {
         scene.output.directory = options.output_directory;
         if (options.scenes.size() > 1)
           scene.output.directory += "/" + scene.name;
         scene.places["Output/Directory"] = "command line";
-        scene.output.check();
+        scene::Mistakes found;
+        found.attempt([&]() { scene.output.check(); });
+        mistakes.merge(found, [&](const auto &message) { return scene.with_place(message); });
       }
+    mistakes.throw_if_any(file);
     return scene;
   }
 
@@ -104,19 +111,23 @@ namespace tetradapt::cli
     const std::string         directory = report::OutputDirectory::path_of(study);
     std::vector<unsigned int> cases(study.variations.size(), 0);
     std::vector<StudyRun>     runs;
+    scene::Mistakes           mistakes;
     do
       {
         StudyRun run;
         run.cases = cases;
         for (std::size_t i = 0; i < cases.size(); ++i)
           run.label += (i == 0 ? "" : ", ") + case_label(study.variations[i], cases[i]);
-        run.name  = numbered(runs.size() + 1, n_runs, run.label);
-        run.scene = scene::read_study_run(study.file, options.settings, cases);
-        check_laws(run.scene);
+        run.name = numbered(runs.size() + 1, n_runs, run.label);
+        scene::Mistakes found;
+        run.scene = scene::read_study_run(study.file, options.settings, cases, found);
+        check_laws(run.scene, found);
+        mistakes.merge(found);
         run.scene.output.directory = directory + "/" + run.name;
         run.scene.title = (study.title.empty() ? study.name : study.title) + ": " + run.label;
         runs.push_back(std::move(run));
     } while (advance(cases, study.variations));
+    mistakes.throw_if_any(study.file);
     return runs;
   }
 } // namespace tetradapt::cli

@@ -14,6 +14,7 @@ namespace tetradapt::cli
                                                 "--version",
                                                 "--print-parameters",
                                                 "--validate",
+                                                "--preview",
                                                 "--set",
                                                 "--output-directory",
                                                 "--quiet",
@@ -58,8 +59,9 @@ namespace tetradapt::cli
             else
               options.scenes.push_back(argument);
           }
-        const bool wants_scene
-          = options.action == Options::Action::run || options.action == Options::Action::validate;
+        const bool wants_scene = options.action == Options::Action::run
+                                 || options.action == Options::Action::validate
+                                 || options.action == Options::Action::preview;
         if (wants_scene && options.scenes.empty())
           throw core::InputError("no scene is given. Write 'tetradapt scene.prm', or 'tetradapt "
                                  "--help' to see the options.");
@@ -113,6 +115,8 @@ namespace tetradapt::cli
           options.action = Options::Action::validate;
         else if (name == "--verbose")
           options.verbose = true;
+        else if (name == "--preview")
+          options.action = Options::Action::preview;
         else
           options.quiet = true;
       }
@@ -157,6 +161,10 @@ error, and lets TetGen refine the mesh until the error is small.
                                scenes, to folders in it with their names
   --validate                   read and check the scenes, print what each needs
                                and skips, and run nothing
+  --preview                    make the first mesh, write its surface with
+                               supports, loads and regions to preview.vtu in
+                               the output folder, print the areas that they
+                               act on, and solve nothing
   --print-parameters[=FORMAT]  print all parameters with defaults and
                                documentation; FORMAT is prm (default), json or
                                markdown

@@ -143,20 +143,21 @@ namespace tetradapt::cli
   } // namespace
 
   void
-  check_study_inputs(const scene::Scene &study, const std::vector<StudyRun> &runs)
+  check_study_inputs(const scene::Scene          &study,
+                     const std::vector<StudyRun> &runs,
+                     scene::Mistakes             &mistakes,
+                     const core::Log             &log)
   {
     std::set<std::string> checked;
     for (const StudyRun &run : runs)
       if (checked.insert(input_key(study, run)).second)
-        try
-          {
-            check_inputs(run.scene);
-          }
-        catch (const core::InputError &error)
-          {
-            throw core::InputError(run.scene.with_place(error.what()) + " (in the run '" + run.label
-                                   + "' of the study)");
-          }
+        {
+          scene::Mistakes found;
+          check_inputs(run.scene, found, log);
+          mistakes.merge(found, [&](const auto &message) {
+            return run.scene.with_place(message) + " (in the run '" + run.label + "' of the study)";
+          });
+        }
   }
 
   int
@@ -168,7 +169,9 @@ namespace tetradapt::cli
   {
     std::unique_ptr<report::OutputDirectory> directory; // on the first rank
     core::on_first_rank(communicator, [&] {
-      check_study_inputs(study, runs);
+      scene::Mistakes mistakes;
+      check_study_inputs(study, runs, mistakes, core::Log());
+      mistakes.throw_if_any(study.file);
       std::vector<const scene::Scene *> scenes;
       for (const StudyRun &run : runs)
         scenes.push_back(&run.scene);

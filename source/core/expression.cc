@@ -82,6 +82,7 @@ namespace tetradapt::core
     {
       parser.DefineConst("pi", std::acos(-1.));
       parser.DefineConst("e", std::exp(1.));
+      parser.DefineConst("everywhere", 1.); // a condition that always holds
       parser.DefineFun("if", choose);
       parser.DefineFun("pow", power);
       parser.DefineFun("floor", round_down);

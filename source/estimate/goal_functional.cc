@@ -4,6 +4,7 @@
 #include "tetradapt/compare/parallel.h"
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/estimate/adaptive_quadrature.h"
+#include "tetradapt/estimate/goal_points.h"
 #include "tetradapt/mesh/face_table.h"
 #include "tetradapt/mesh/mesh_checks.h"
 
@@ -77,17 +78,8 @@ namespace tetradapt::estimate
       void
       add_point()
       {
-        const compare::Location found = comparison.locator().locate(goal.point);
-        // Coarse meshes of curved bodies leave a sliver of them outside.
-        const double size = std::cbrt(mesh::cell_volume(mesh, found.cell));
-        if (found.distance > 0.5 * size)
-          {
-            std::ostringstream message;
-            message << what << "/Point: " << mesh::to_string(goal.point) << " lies "
-                    << found.distance << " outside of the body. Move it inside.";
-            throw core::InputError(message.str());
-          }
-        Tensor<1, 3> unit;
+        const compare::Location found = locate_goal(goal, comparison.locator());
+        Tensor<1, 3>            unit;
         unit[goal.component_index()] = 1.;
         if (compare::this_rank(communicator) == 0)
           assembly.add_force(found.cell, found.barycentric, unit);

@@ -98,7 +98,7 @@ namespace tetradapt::mesh
   }
 
   std::optional<SurfacePoint>
-  ZeroSet::foot(const Point<3> &point, const double length) const
+  CurvedSurface::foot(const Point<3> &point, const double length) const
   {
     const auto found = find_foot(point, {this}, {}, length);
     if (!found)

@@ -43,13 +43,17 @@ namespace tetradapt::mesh
     plane_near(const Point<3> &point, double length) const = 0;
 
     /** The foot of @p point, which is within @p length of the surface, and the normal there, of
-     * either sign; none if it is not found. */
+     * either sign; none if it is not found. By default from plane_near(), with Newton's
+     * method. */
     virtual std::optional<SurfacePoint>
-    foot(const Point<3> &point, double length) const = 0;
+    foot(const Point<3> &point, double length) const;
 
     /** Whether the normal changes in steps, from one triangle to the next. */
     virtual bool
-    has_steps() const = 0;
+    has_steps() const
+    {
+      return false;
+    }
 
     /** The nearest point on a sharp edge; none if there is none. */
     virtual std::optional<Point<3>>
@@ -106,13 +110,6 @@ namespace tetradapt::mesh
     }
     LocalPlane
     plane_near(const Point<3> &point, double length) const override;
-    std::optional<SurfacePoint>
-    foot(const Point<3> &point, double length) const override;
-    bool
-    has_steps() const override
-    {
-      return false;
-    }
 
   private:
     std::string      place;

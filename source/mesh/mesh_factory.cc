@@ -69,6 +69,26 @@ namespace tetradapt::mesh
       throw core::InputError(text.str());
     }
 
+    /** What tells mesh @p number of a list from the others. */
+    std::string
+    mesh_name(const scene::Scene &scene, const unsigned int number)
+    {
+      const scene::MeshParameters &parameters = scene.mesh;
+      if (parameters.source == scene::MeshSource::bricks)
+        {
+          const auto &n = entry(parameters.cells, number);
+          return "of " + std::to_string(n[0]) + "x" + std::to_string(n[1]) + "x"
+                 + std::to_string(n[2]) + " bricks";
+        }
+      if (parameters.files.size() > 1)
+        return "'" + parameters.files[number] + "'";
+      std::ostringstream text;
+      text << "with Volume bound " << entry(parameters.volume_bounds, number);
+      return text.str();
+    }
+
+
+
     /** The edge length that is wanted at a point of the body: by Mesh/Size, by the bound on
      * volumes, and a tenth of the body at most. */
     std::function<double(const Point<3> &)>
@@ -225,8 +245,21 @@ namespace tetradapt::mesh
                       + " tetrahedra are larger than asked for.");
       }
     // What was cut has its selections from its surface.
-    if (!borders_are_cut(scene.mesh))
-      report_straddled(select_faces(mesh, face_selectors(scene)), log);
+    if (borders_are_cut(scene.mesh))
+      return mesh;
+    try
+      {
+        report_straddled(select_faces(mesh, face_selectors(scene)), log);
+      }
+    catch (const core::InputError &error)
+      {
+        // Selections that fit the first mesh may find nothing on a later one.
+        if (scene.mesh.n_meshes() == 1)
+          throw;
+        throw core::InputError(error.what() + std::string(" (in the mesh ")
+                               + mesh_name(scene, number) + ", number " + std::to_string(number + 1)
+                               + " of " + std::to_string(scene.mesh.n_meshes()) + ")");
+      }
     return mesh;
   }
 } // namespace tetradapt::mesh

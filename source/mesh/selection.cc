@@ -130,6 +130,14 @@ namespace tetradapt::mesh
 
 
 
+  void
+  check_names(const TetMesh &mesh, const std::string &name, const scene::Selector &selector)
+  {
+    check_lists(name, selector, Choice(mesh));
+  }
+
+
+
   std::vector<SelectedFaces>
   select_faces(TetMesh                                                    &mesh,
                const std::vector<std::pair<std::string, scene::Selector>> &selectors,

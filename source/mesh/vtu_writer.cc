@@ -45,15 +45,49 @@ namespace tetradapt::mesh
 
 
 
-  VtuWriter::VtuWriter(const TetMesh &mesh) : mesh(mesh), n_nodes(mesh.n_points())
+  VtuWriter::VtuWriter(const TetMesh &mesh, const unsigned int n_nodes, const unsigned int n_cells)
+    : mesh(mesh), n_nodes(n_nodes), n_cells(n_cells)
+  {
+  }
+
+
+
+  VtuWriter::VtuWriter(const TetMesh &mesh) : VtuWriter(mesh, mesh.n_points(), mesh.n_cells())
   {
     add_geometry();
   }
 
 
 
+  VtuWriter
+  VtuWriter::of_boundary(const TetMesh &mesh)
+  {
+    std::vector<std::int32_t> number(mesh.n_points(), -1), connectivity;
+    std::vector<double>       coordinates;
+    connectivity.reserve(3 * mesh.faces.size());
+    std::int32_t n_points = 0;
+    for (const BoundaryFace &face : mesh.faces)
+      for (const unsigned int v : face.vertices)
+        {
+          if (number[v] < 0)
+            {
+              number[v]         = n_points++;
+              const Point<3> &p = mesh.points[v];
+              coordinates.insert(coordinates.end(), {p[0], p[1], p[2]});
+            }
+          connectivity.push_back(number[v]);
+        }
+    VtuWriter writer(mesh, n_points, mesh.faces.size());
+    writer.add_array(Section::points, "Points", "Float64", 3, coordinates);
+    writer.add_array(Section::cells, "connectivity", "Int32", 1, connectivity);
+    writer.add_types(vtk_triangle, 3);
+    return writer;
+  }
+
+
+
   VtuWriter::VtuWriter(const NodalField &field)
-    : mesh(field.mesh()), field(&field), n_nodes(field.n_nodes())
+    : mesh(field.mesh()), field(&field), n_nodes(field.n_nodes()), n_cells(mesh.n_cells())
   {
     add_geometry();
     std::vector<double> displacement;
@@ -86,16 +120,19 @@ namespace tetradapt::mesh
         connectivity.push_back(i < 4 ? mesh.cells[c][i] : field->node(c, i));
     add_array(Section::cells, "connectivity", "Int32", 1, connectivity);
 
-    std::vector<std::int64_t> offsets(mesh.cells.size());
+    add_types(quadratic ? vtk_quadratic_tetra : vtk_tetra, n_local);
+  }
+
+
+
+  void
+  VtuWriter::add_types(const std::uint8_t type, const unsigned int n_local)
+  {
+    std::vector<std::int64_t> offsets(n_cells);
     for (std::size_t c = 0; c < offsets.size(); ++c)
       offsets[c] = n_local * (c + 1);
     add_array(Section::cells, "offsets", "Int64", 1, offsets);
-    add_array(Section::cells,
-              "types",
-              "UInt8",
-              1,
-              std::vector<std::uint8_t>(mesh.cells.size(),
-                                        quadratic ? vtk_quadratic_tetra : vtk_tetra));
+    add_array(Section::cells, "types", "UInt8", 1, std::vector<std::uint8_t>(n_cells, type));
   }
 
 
@@ -168,7 +205,7 @@ namespace tetradapt::mesh
                            const std::vector<double> &values,
                            const Precision            precision)
   {
-    add_numbers(Section::cell_data, name, n_components, mesh.n_cells(), values, precision);
+    add_numbers(Section::cell_data, name, n_components, n_cells, values, precision);
   }
 
 
@@ -188,10 +225,10 @@ namespace tetradapt::mesh
   void
   VtuWriter::add_cell_ids(const std::string &name, const std::vector<int> &ids)
   {
-    if (ids.size() != mesh.cells.size())
+    if (ids.size() != n_cells)
       throw core::InputError("The array '" + name + "' for a .vtu file has "
                              + std::to_string(ids.size()) + " numbers instead of "
-                             + std::to_string(mesh.cells.size()) + ".");
+                             + std::to_string(n_cells) + ".");
     add_array(Section::cell_data, name, "Int32", 1, ids);
   }
 
@@ -278,8 +315,7 @@ namespace tetradapt::mesh
       out << "</" << element << ">\n";
     };
     write_section(Section::field_data, "FieldData");
-    out << "<Piece NumberOfPoints=\"" << n_nodes << "\" NumberOfCells=\"" << mesh.n_cells()
-        << "\">\n";
+    out << "<Piece NumberOfPoints=\"" << n_nodes << "\" NumberOfCells=\"" << n_cells << "\">\n";
     write_section(Section::points, "Points");
     write_section(Section::cells, "Cells");
     write_section(Section::point_data, "PointData");

@@ -177,40 +177,44 @@ namespace tetradapt::scene
   void
   AdaptivityParameters::check() const
   {
-    check_fraction(lambda, "Lambda");
-    check_fraction(fraction, "Fraction");
-    check_fraction(theta, "Theta");
-    check_fraction(min_ratio, "Minimum ratio");
-    require(min_new >= 0. && min_new <= 1.,
-            "Adaptivity/Minimum new fraction",
-            "must be between 0 and 1, not " + text_of(min_new) + ".");
-    require(reduction > 0. && reduction < 1.,
-            "Adaptivity/Reduction",
-            "must be between 0 and 1: a marked tetrahedron becomes smaller; it is "
-              + text_of(reduction) + ".");
-    require(growth > 1.,
-            "Adaptivity/Growth",
-            "must be larger than 1: the next mesh has more tetrahedra; it is " + text_of(growth)
-              + ".");
-    require(max_ratio >= 1.,
-            "Adaptivity/Maximum ratio",
-            "must be at least 1; it is " + text_of(max_ratio) + ".");
-    check_not_negative(min_size, "Minimum size", "none");
-    check_not_negative(max_size, "Maximum size", "none");
-    require(max_size == 0. || min_size <= max_size,
-            "Adaptivity/Minimum size",
-            text_of(min_size) + " is larger than Maximum size, " + text_of(max_size) + ".");
-    require(gradation > 0.,
-            "Adaptivity/Gradation",
-            "must be positive; 0.2 to 0.4 is usual, and large values allow any jump.");
-    check_not_negative(tolerance, "Tolerance", "no such stop");
-    require(tolerance < 1.,
-            "Adaptivity/Tolerance",
-            "is a relative error: it must be smaller than 1, such as 0.05.");
-    check_not_negative(ren_tolerance, "REN tolerance", "no such stop");
-    check_not_negative(goal_tolerance, "Goal tolerance", "no such stop");
-    require(max_cycles > 0, "Adaptivity/Maximum cycles", "must be at least 1.");
-    check_not_negative(max_seconds, "Maximum seconds", "no limit");
+    Mistakes mistakes;
+    mistakes.attempt([&]() { check_fraction(lambda, "Lambda"); });
+    mistakes.attempt([&]() { check_fraction(fraction, "Fraction"); });
+    mistakes.attempt([&]() { check_fraction(theta, "Theta"); });
+    mistakes.attempt([&]() { check_fraction(min_ratio, "Minimum ratio"); });
+    mistakes.require(min_new >= 0. && min_new <= 1.,
+                     "Adaptivity/Minimum new fraction",
+                     "must be between 0 and 1, not " + text_of(min_new) + ".");
+    mistakes.require(reduction > 0. && reduction < 1.,
+                     "Adaptivity/Reduction",
+                     "must be between 0 and 1: a marked tetrahedron becomes smaller; it is "
+                       + text_of(reduction) + ".");
+    mistakes.require(growth > 1.,
+                     "Adaptivity/Growth",
+                     "must be larger than 1: the next mesh has more tetrahedra; it is "
+                       + text_of(growth) + ".");
+    mistakes.require(max_ratio >= 1.,
+                     "Adaptivity/Maximum ratio",
+                     "must be at least 1; it is " + text_of(max_ratio) + ".");
+    mistakes.attempt([&]() { check_not_negative(min_size, "Minimum size", "none"); });
+    mistakes.attempt([&]() { check_not_negative(max_size, "Maximum size", "none"); });
+    mistakes.require(max_size == 0. || min_size <= max_size,
+                     "Adaptivity/Minimum size",
+                     text_of(min_size) + " is larger than Maximum size, " + text_of(max_size)
+                       + ".");
+    mistakes.require(gradation > 0.,
+                     "Adaptivity/Gradation",
+                     "must be positive; 0.2 to 0.4 is usual, and large values allow any jump.");
+    mistakes.attempt([&]() { check_not_negative(tolerance, "Tolerance", "no such stop"); });
+    mistakes.require(tolerance < 1.,
+                     "Adaptivity/Tolerance",
+                     "is a relative error: it must be smaller than 1, such as 0.05.");
+    mistakes.attempt([&]() { check_not_negative(ren_tolerance, "REN tolerance", "no such stop"); });
+    mistakes.attempt(
+      [&]() { check_not_negative(goal_tolerance, "Goal tolerance", "no such stop"); });
+    mistakes.require(max_cycles > 0, "Adaptivity/Maximum cycles", "must be at least 1.");
+    mistakes.attempt([&]() { check_not_negative(max_seconds, "Maximum seconds", "no limit"); });
+    mistakes.throw_together();
   }
 
   void

@@ -3,6 +3,8 @@
 
 #include "values.h"
 
+#include "tetradapt/core/expression_tokens.h"
+
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -10,6 +12,18 @@
 
 namespace tetradapt::scene
 {
+  namespace
+  {
+    bool
+    names_time(const std::string &text)
+    {
+      const auto tokens = core::expression_tokens(text);
+      return std::any_of(tokens.begin(), tokens.end(), [](const core::ExpressionToken &token) {
+        return token.is("t");
+      });
+    }
+  } // namespace
+
   bool
   constant_value(const std::string                &text,
                  const std::string                &what,
@@ -17,6 +31,11 @@ namespace tetradapt::scene
                  const core::Expression::Variables variables)
   {
     const core::Expression expression(text, what, variables);
+    require(!names_time(text),
+            what,
+            "'" + text
+              + "' depends on the time t, but the scene is static. Write a number in the place of "
+                "t.");
     if (!expression.is_constant())
       return false;
     value = expression(core::Point<3>());

@@ -4,6 +4,7 @@
 
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/expression.h"
+#include "tetradapt/scene/mistakes.h"
 
 #include <string>
 #include <vector>
@@ -21,14 +22,16 @@ namespace tetradapt::scene
   }
 
   /** Whether @p text is an expression without variables; @p value gets its value.
-   * @throws InputError if it is no expression, or constant but not finite. */
+   * @throws InputError if it is no expression, depends on t, or is constant but not
+   * finite. */
   bool
   constant_value(const std::string          &text,
                  const std::string          &what,
                  double                     &value,
                  core::Expression::Variables variables = core::Expression::Variables::point);
 
-  /** @throws InputError if @p text is no expression, or constant but not finite. */
+  /** @throws InputError if @p text is no expression, depends on t, or is constant but not
+   * finite. */
   void
   check_expression(const std::string          &text,
                    const std::string          &what,

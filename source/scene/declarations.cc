@@ -175,11 +175,11 @@ namespace tetradapt::scene
   }
 
   void
-  parse(Scene &scene, dealii::ParameterHandler &prm)
+  parse(Scene &scene, dealii::ParameterHandler &prm, Mistakes &mistakes)
   {
     Binder binder(prm, Binder::Action::parse);
     bind_top(scene, binder);
-    visit(scene, prm, [&](auto &part) { part.parse(prm); });
+    visit(scene, prm, [&](auto &part) { mistakes.attempt_reading([&]() { part.parse(prm); }); });
   }
 
   const SectionTree *

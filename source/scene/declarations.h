@@ -2,6 +2,7 @@
 #ifndef tetradapt_scene_declarations_h
 #define tetradapt_scene_declarations_h
 
+#include "tetradapt/scene/mistakes.h"
 #include "tetradapt/scene/scene.h"
 
 #include <deal.II/base/parameter_handler.h>
@@ -37,9 +38,9 @@ namespace tetradapt::scene
             dealii::ParameterHandler &prm);
 
   /** Reads all parameters of @p prm, which must declare the blocks that @p scene
-   * has. @throws InputError for values that contradict each other in a block. */
+   * has. Values that contradict each other in a block are added to @p mistakes. */
   void
-  parse(Scene &scene, dealii::ParameterHandler &prm);
+  parse(Scene &scene, dealii::ParameterHandler &prm, Mistakes &mistakes);
 
   /** A section of what is declared, in the order of declaration. */
   struct SectionTree

@@ -19,12 +19,15 @@ namespace tetradapt::scene
     void
     check_displacement_form(const Scene &scene)
     {
+      Mistakes mistakes;
       for (const auto &material : scene.materials)
-        require(material.poisson_ratio <= largest_nu,
-                "Materials/" + material.name + "/Poisson ratio",
-                "the displacement form cannot solve for a material with "
-                  + text_of(material.poisson_ratio) + ": elements lock above " + text_of(largest_nu)
-                  + ". Set Formulation = mixed and Degree = 2, which serve up to 0.5 itself.");
+        mistakes.require(
+          material.poisson_ratio <= largest_nu,
+          "Materials/" + material.name + "/Poisson ratio",
+          "the displacement form cannot solve for a material with "
+            + text_of(material.poisson_ratio) + ": elements lock above " + text_of(largest_nu)
+            + ". Set Formulation = mixed and Degree = 2, which serve up to 0.5 itself.");
+      mistakes.throw_together();
     }
 
     void
@@ -43,34 +46,40 @@ namespace tetradapt::scene
     void
     check_mixed_form(const Scene &scene)
     {
-      require(
+      Mistakes mistakes;
+      mistakes.require(
         scene.degree == 2,
         "Formulation",
         "mixed needs Degree = 2: the pressure is linear, and linear displacements with it are "
         "unstable.");
       for (const auto &material : scene.materials)
-        require(material.poisson_ratio > 0.,
-                "Materials/" + material.name + "/Poisson ratio",
-                "must be positive with Formulation = mixed, not " + text_of(material.poisson_ratio)
-                  + ". For a body without nearly incompressible parts leave out Formulation.");
+        mistakes.require(
+          material.poisson_ratio > 0.,
+          "Materials/" + material.name + "/Poisson ratio",
+          "must be positive with Formulation = mixed, not " + text_of(material.poisson_ratio)
+            + ". For a body without nearly incompressible parts leave out Formulation.");
       using Reference = ReferenceParameters::Type;
-      require(scene.reference.type == Reference::none
-                || (scene.reference.type == Reference::fine_mesh && scene.reference.degree == 2),
-              "Reference/"
-                + std::string(scene.reference.type == Reference::fine_mesh ? "Degree" : "Type"),
-              "with Formulation = mixed the reference must also be solved in mixed form: use Type "
-              "= fine mesh and Degree = 2.");
+      mistakes.require(
+        scene.reference.type == Reference::none
+          || (scene.reference.type == Reference::fine_mesh && scene.reference.degree == 2),
+        "Reference/"
+          + std::string(scene.reference.type == Reference::fine_mesh ? "Degree" : "Type"),
+        "with Formulation = mixed the reference must also be solved in mixed form: use Type = fine "
+        "mesh and Degree = 2.");
       for (const auto &goal : scene.goals)
-        require(goal.type == GoalType::point_displacement
-                  || goal.type == GoalType::mean_displacement,
-                "Goals/" + goal.name + "/Type",
-                "a goal of stresses is for the displacement form only. With Formulation = mixed "
-                "use a point or mean displacement.");
+        mistakes.require(
+          goal.type == GoalType::point_displacement || goal.type == GoalType::mean_displacement,
+          "Goals/" + goal.name + "/Type",
+          "a goal of stresses is for the displacement form only. With Formulation = mixed "
+          "use a point or mean displacement.");
       for (const ErrorEstimator which : scene.estimation.estimators)
-        check_mixed_estimator(which, "Estimation/Estimators");
+        mistakes.attempt([&]() { check_mixed_estimator(which, "Estimation/Estimators"); });
       if (scene.adaptivity.strategy == AdaptivityParameters::Strategy::adaptive)
-        check_mixed_estimator(scene.adaptivity.refinement_indicator,
-                              "Adaptivity/Refinement indicator");
+        mistakes.attempt([&]() {
+          check_mixed_estimator(scene.adaptivity.refinement_indicator,
+                                "Adaptivity/Refinement indicator");
+        });
+      mistakes.throw_together();
     }
   } // namespace
 

@@ -3,6 +3,7 @@
 
 #include "binder.h"
 #include "checks.h"
+#include "face_choice.h"
 
 #include <algorithm>
 
@@ -39,10 +40,7 @@ namespace tetradapt::scene
              "a ball in point stress, is integrated more accurately than one with jumps.");
       binder("Boundary ids", p.selector.ids, ids_codec(), "Ids of the faces of a mean.");
       binder("Groups", p.selector.groups, names_codec(), "Names of such groups of faces.");
-      binder("Where",
-             p.selector.where,
-             text_codec("a condition in x, y, z, or nothing"),
-             "Condition that must also hold on the faces, as for supports and loads.");
+      bind_where(p.selector, binder);
       binder("Displacement weight",
              p.displacement_weight,
              expressions_codec<3>(true),
@@ -111,34 +109,40 @@ namespace tetradapt::scene
   void
   GoalParameters::check() const
   {
+    Mistakes          mistakes;
     const std::string path = "Goals/" + name + "/";
     if (type != GoalType::functional)
-      component_index();
-    require(type != GoalType::point_stress || radius > 0.,
-            path + "Radius",
-            "a point stress is a mean over a ball: give its radius, smaller than what the stress "
-            "varies over.");
-    double constant;
-    require(!constant_value(weight, path + "Weight", constant) || constant > 0.,
-            path + "Weight",
-            "must be positive somewhere; it is " + weight + ".");
+      mistakes.attempt([&]() { component_index(); });
+    mistakes.require(
+      type != GoalType::point_stress || radius > 0.,
+      path + "Radius",
+      "a point stress is a mean over a ball: give its radius, smaller than what the stress "
+      "varies over.");
+    mistakes.attempt([&]() {
+      double constant;
+      require(!constant_value(weight, path + "Weight", constant) || constant > 0.,
+              path + "Weight",
+              "must be positive somewhere; it is " + weight + ".");
+    });
     const bool has_function
       = !displacement_weight[0].empty() || !traction_weight[0].empty() || !stress_weight[0].empty();
-    require(type == GoalType::functional || !has_function,
-            path + "Type",
-            "Displacement weight, Traction weight and Stress weight are for Type = functional.");
-    require(type != GoalType::functional || has_function,
-            path + "Type",
-            "a functional needs Displacement weight, Traction weight or Stress weight.");
-    check_weights(displacement_weight, path + "Displacement weight");
-    check_weights(traction_weight, path + "Traction weight");
-    check_weights(stress_weight, path + "Stress weight");
-    require(uses_faces() || selector.empty(),
-            path + "Where",
-            "Boundary ids, Groups and Where choose the faces of a mean displacement or of a "
-            "Traction weight; a mean stress is chosen by its Weight.");
-    require(!uses_faces() || !selector.empty() || type == GoalType::functional,
-            path + "Where",
-            "a mean displacement needs faces: set Boundary ids, Groups or Where.");
+    mistakes.require(
+      type == GoalType::functional || !has_function,
+      path + "Type",
+      "Displacement weight, Traction weight and Stress weight are for Type = functional.");
+    mistakes.require(type != GoalType::functional || has_function,
+                     path + "Type",
+                     "a functional needs Displacement weight, Traction weight or Stress weight.");
+    mistakes.attempt([&]() { check_weights(displacement_weight, path + "Displacement weight"); });
+    mistakes.attempt([&]() { check_weights(traction_weight, path + "Traction weight"); });
+    mistakes.attempt([&]() { check_weights(stress_weight, path + "Stress weight"); });
+    mistakes.require(
+      uses_faces() || selector.empty(),
+      path + "Where",
+      "Boundary ids, Groups and Where choose the faces of a mean displacement or of a "
+      "Traction weight; a mean stress is chosen by its Weight.");
+    if (uses_faces())
+      mistakes.attempt([&]() { check_faces(selector, "Goals/" + name); });
+    mistakes.throw_together();
   }
 } // namespace tetradapt::scene

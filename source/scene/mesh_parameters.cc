@@ -287,42 +287,44 @@ namespace tetradapt::scene
   void
   MeshParameters::check() const
   {
+    Mistakes mistakes;
     if (source == MeshSource::box || source == MeshSource::bricks)
       {
-        check_corners(*this);
-        require(files.empty(),
-                "Mesh/Files",
-                "a mesh of Type = " + word(source)
-                  + " reads no file. Remove this, or set Type to file or surface.");
+        mistakes.attempt([&]() { check_corners(*this); });
+        mistakes.require(files.empty(),
+                         "Mesh/Files",
+                         "a mesh of Type = " + word(source)
+                           + " reads no file. Remove this, or set Type to file or surface.");
       }
     else if (source == MeshSource::blocks)
-      check_blocks(*this);
+      mistakes.attempt([&]() { check_blocks(*this); });
     else
-      check_files(*this);
-    check_projection(*this);
+      mistakes.attempt([&]() { check_files(*this); });
+    mistakes.attempt([&]() { check_projection(*this); });
     if (!size_field.empty())
-      check_file(size_field, "Mesh/Size field", {".vtu"});
+      mistakes.attempt([&]() { check_file(size_field, "Mesh/Size field", {".vtu"}); });
     if (source != MeshSource::surface)
-      require(surface_edge_length == 0.,
-              "Mesh/Surface edge length",
-              "only a mesh of Type = surface has a surface to remesh. Remove this.");
-    require(!volume_bounds.empty(), "Mesh/Volume bound", "give a number; 0 is no bound.");
+      mistakes.require(surface_edge_length == 0.,
+                       "Mesh/Surface edge length",
+                       "only a mesh of Type = surface has a surface to remesh. Remove this.");
+    mistakes.require(!volume_bounds.empty(), "Mesh/Volume bound", "give a number; 0 is no bound.");
     for (const double bound : volume_bounds)
-      require(bound >= 0.,
-              "Mesh/Volume bound",
-              "a volume of " + text_of(bound)
-                + " is not possible: it must be positive, or 0 for no bound.");
-    check_size(size, "Mesh/Size");
+      mistakes.require(bound >= 0.,
+                       "Mesh/Volume bound",
+                       "a volume of " + text_of(bound)
+                         + " is not possible: it must be positive, or 0 for no bound.");
+    mistakes.attempt([&]() { check_size(size, "Mesh/Size"); });
     if (source == MeshSource::bricks)
       {
-        check_cells(*this);
-        require(size_field.empty(),
-                "Mesh/Size field",
-                "the size of bricks is set by Cells. Remove this, or use Type = box.");
-        require(size.empty() && volume_bounds == std::vector<double>{0.},
-                size.empty() ? "Mesh/Volume bound" : "Mesh/Size",
-                "the size of bricks is set by Cells. Remove this, or use Type = box.");
+        mistakes.attempt([&]() { check_cells(*this); });
+        mistakes.require(size_field.empty(),
+                         "Mesh/Size field",
+                         "the size of bricks is set by Cells. Remove this, or use Type = box.");
+        mistakes.require(size.empty() && volume_bounds == std::vector<double>{0.},
+                         size.empty() ? "Mesh/Volume bound" : "Mesh/Size",
+                         "the size of bricks is set by Cells. Remove this, or use Type = box.");
       }
+    mistakes.throw_together();
   }
 
   void
@@ -340,19 +342,21 @@ namespace tetradapt::scene
   void
   TetgenParameters::check() const
   {
-    check_quality(radius_edge_ratio, dihedral_angle, "TetGen");
-    require(optimisation_level <= 10,
-            "TetGen/Optimisation level",
-            "must be a whole number from 0 to 10.");
-    require(optimisation_scheme <= 7,
-            "TetGen/Optimisation scheme",
-            "must be a whole number from 0 to 7.");
-    require(steiner_points >= -1,
-            "TetGen/Steiner points",
-            "must be a number of points, or -1 for no limit.");
-    require(time_limit > 0., "TetGen/Time limit", "must be a positive number of seconds.");
-    require(memory_limit >= 64.,
-            "TetGen/Memory limit",
-            "TetGen needs at least 64 MiB; the default is 8192.");
+    Mistakes mistakes;
+    mistakes.attempt([&]() { check_quality(radius_edge_ratio, dihedral_angle, "TetGen"); });
+    mistakes.require(optimisation_level <= 10,
+                     "TetGen/Optimisation level",
+                     "must be a whole number from 0 to 10.");
+    mistakes.require(optimisation_scheme <= 7,
+                     "TetGen/Optimisation scheme",
+                     "must be a whole number from 0 to 7.");
+    mistakes.require(steiner_points >= -1,
+                     "TetGen/Steiner points",
+                     "must be a number of points, or -1 for no limit.");
+    mistakes.require(time_limit > 0., "TetGen/Time limit", "must be a positive number of seconds.");
+    mistakes.require(memory_limit >= 64.,
+                     "TetGen/Memory limit",
+                     "TetGen needs at least 64 MiB; the default is 8192.");
+    mistakes.throw_together();
   }
 } // namespace tetradapt::scene

@@ -3,8 +3,7 @@
 
 #include "binder.h"
 #include "checks.h"
-
-#include "tetradapt/core/condition.h"
+#include "face_choice.h"
 
 #include <algorithm>
 
@@ -54,14 +53,7 @@ namespace tetradapt::scene
              names_codec(),
              "Names of such groups of faces, for a box: x-min, x-max, y-min, ... A face counts "
              "if its id or its group is listed, or if neither list is given.");
-      binder("Where",
-             selector.where,
-             text_codec("a condition in x, y, z, or nothing"),
-             "Condition in x, y, z that must also hold, such as x < 1e-9: comparisons and "
-             "box(x0,y0,z0, x1,y1,z1), sphere(x,y,z, r), cylinder(x0,y0,z0, x1,y1,z1, r), "
-             "half_space(x,y,z, nx,ny,nz), combined by &&, || and !. Its border is cut into the "
-             "surface of a box, blocks or a surface file; faces of other meshes are selected as a "
-             "whole, if it holds at their corners and centre.");
+      bind_where(selector, binder);
     }
 
     void
@@ -75,7 +67,7 @@ namespace tetradapt::scene
       binder("Displacement",
              p.displacement,
              expressions_codec<3>(false),
-             "Prescribed displacement: three expressions in x, y, z, t, separated by semicolons.");
+             "Prescribed displacement: three expressions in x, y, z, separated by semicolons.");
     }
 
     bool
@@ -102,10 +94,9 @@ namespace tetradapt::scene
              "the mesh (for comparison with programs that do this); body force: force per volume; "
              "gravity: an acceleration, times the density; "
              "temperature: its change, which causes thermal strain.");
-      const bool  on_faces = acts_on_faces(p.type);
-      Selector    faces    = on_faces ? p.selector : Selector();
-      Selector    regions  = on_faces ? Selector() : p.selector;
-      std::string where    = on_faces ? "" : p.selector.where;
+      const bool on_faces = acts_on_faces(p.type);
+      Selector   faces    = on_faces ? p.selector : Selector();
+      Selector   regions  = on_faces ? Selector() : p.selector;
       bind_faces(faces, binder);
       binder("Regions",
              regions.ids,
@@ -123,7 +114,7 @@ namespace tetradapt::scene
       binder("Value",
              values,
              value_codec(),
-             "Expressions in x, y, z, t: three separated by semicolons for a vector, one for a "
+             "Expressions in x, y, z: three separated by semicolons for a vector, one for a "
              "pressure or a temperature. A traction or a pressure may also use nx, ny, nz, the "
              "unit normal that points out of the body: that of the surface which Mesh/Projection "
              "names at the nearest point, else that of the face of the mesh.");
@@ -182,17 +173,6 @@ namespace tetradapt::scene
              "the column strain_energy of the tables, and half the work of the loads if they act "
              "alone; 0: unknown.");
     }
-
-    void
-    check_selector(const Selector &selector, const std::string &path)
-    {
-      if (selector.where.empty())
-        return;
-      const core::Condition condition(selector.where, path + "/Where");
-      require(!condition.is_constant() || condition.holds(core::Point<3>()),
-              path + "/Where",
-              "'" + selector.where + "' holds nowhere. Give a condition such as x < 1e-9.");
-    }
   } // namespace
 
   void
@@ -210,17 +190,19 @@ namespace tetradapt::scene
   void
   MaterialParameters::check() const
   {
+    Mistakes          mistakes;
     const std::string path = "Materials/" + name + "/";
-    require(!law.empty(), path + "Law", "give the name of a law, such as linear elastic.");
-    require(young_modulus > 0.,
-            path + "Young modulus",
-            "must be positive, not " + text_of(young_modulus) + ".");
-    require(poisson_ratio > -1. && poisson_ratio <= 0.5,
-            path + "Poisson ratio",
-            "must be larger than -1 and at most 0.5, not " + text_of(poisson_ratio) + ".");
-    require(density >= 0.,
-            path + "Density",
-            "must not be negative; it is " + text_of(density) + ".");
+    mistakes.require(!law.empty(), path + "Law", "give the name of a law, such as linear elastic.");
+    mistakes.require(young_modulus > 0.,
+                     path + "Young modulus",
+                     "must be positive, not " + text_of(young_modulus) + ".");
+    mistakes.require(poisson_ratio > -1. && poisson_ratio <= 0.5,
+                     path + "Poisson ratio",
+                     "must be larger than -1 and at most 0.5, not " + text_of(poisson_ratio) + ".");
+    mistakes.require(density >= 0.,
+                     path + "Density",
+                     "must not be negative; it is " + text_of(density) + ".");
+    mistakes.throw_together();
   }
 
   void
@@ -238,23 +220,26 @@ namespace tetradapt::scene
   void
   SupportParameters::check() const
   {
+    Mistakes          mistakes;
     const std::string path = "Supports/" + name;
-    check_selector(selector, path);
-    require(components[0] || components[1] || components[2],
-            path + "/Components",
-            "name at least one of x, y, z, or all.");
+    mistakes.attempt([&]() { check_faces(selector, path); });
+    mistakes.require(components[0] || components[1] || components[2],
+                     path + "/Components",
+                     "name at least one of x, y, z, or all.");
     for (unsigned int c = 0; c < 3; ++c)
       {
         const std::string letter(1, "xyz"[c]);
-        const std::string what = path + "/Displacement, component " + letter;
-        double            value;
-        const bool        constant = constant_value(displacement[c], what, value);
-        require(components[c] || (constant && value == 0.),
-                path + "/Displacement",
-                "it prescribes the component " + letter + " ('" + displacement[c]
-                  + "'), which Components leaves free. Add " + letter
-                  + " to Components, or write 0 for it.");
+        const std::string what     = path + "/Displacement, component " + letter;
+        double            value    = 0.;
+        bool              constant = false;
+        if (mistakes.attempt([&]() { constant = constant_value(displacement[c], what, value); }))
+          mistakes.require(components[c] || (constant && value == 0.),
+                           path + "/Displacement",
+                           "it prescribes the component " + letter + " ('" + displacement[c]
+                             + "'), which Components leaves free. Add " + letter
+                             + " to Components, or write 0 for it.");
       }
+    mistakes.throw_together();
   }
 
   void
@@ -272,15 +257,20 @@ namespace tetradapt::scene
   void
   LoadParameters::check() const
   {
+    Mistakes          mistakes;
     const std::string path = "Loads/" + name;
-    check_selector(selector, path);
+    if (acts_on_faces(type))
+      mistakes.attempt([&]() { check_faces(selector, path); });
     const bool has_normal = type == LoadType::traction || type == LoadType::pressure;
     for (unsigned int c = 0; c < (is_scalar(type) ? 1u : 3u); ++c)
-      check_expression(value[c],
-                       path + "/Value"
-                         + (is_scalar(type) ? "" : std::string(", component ") + "xyz"[c]),
-                       has_normal ? core::Expression::Variables::point_and_normal
-                                  : core::Expression::Variables::point);
+      mistakes.attempt([&]() {
+        check_expression(value[c],
+                         path + "/Value"
+                           + (is_scalar(type) ? "" : std::string(", component ") + "xyz"[c]),
+                         has_normal ? core::Expression::Variables::point_and_normal
+                                    : core::Expression::Variables::point);
+      });
+    mistakes.throw_together();
   }
 
   void
@@ -298,20 +288,28 @@ namespace tetradapt::scene
   void
   ExactSolutionParameters::check() const
   {
+    Mistakes mistakes;
     if (has_displacement())
       for (unsigned int c = 0; c < 3; ++c)
-        check_expression(displacement[c],
-                         std::string("Exact solution/Displacement, component ") + "xyz"[c]);
-    require(has_displacement() || !has_gradient(),
-            "Exact solution/Gradient",
-            "the gradient of an unknown displacement. Give Exact solution/Displacement too.");
+        mistakes.attempt([&]() {
+          check_expression(displacement[c],
+                           std::string("Exact solution/Displacement, component ") + "xyz"[c]);
+        });
+    mistakes.require(
+      has_displacement() || !has_gradient(),
+      "Exact solution/Gradient",
+      "the gradient of an unknown displacement. Give Exact solution/Displacement too.");
     if (has_gradient())
       for (unsigned int i = 0; i < 9; ++i)
-        check_expression(gradient[i],
-                         std::string("Exact solution/Gradient, du_") + "xyz"[i / 3] + "/d"
-                           + "xyz"[i % 3]);
-    require(strain_energy >= 0.,
-            "Exact solution/Strain energy",
-            "must be positive, or 0 if it is unknown; it is " + text_of(strain_energy) + ".");
+        mistakes.attempt([&]() {
+          check_expression(gradient[i],
+                           std::string("Exact solution/Gradient, du_") + "xyz"[i / 3] + "/d"
+                             + "xyz"[i % 3]);
+        });
+    mistakes.require(strain_energy >= 0.,
+                     "Exact solution/Strain energy",
+                     "must be positive, or 0 if it is unknown; it is " + text_of(strain_energy)
+                       + ".");
+    mistakes.throw_together();
   }
 } // namespace tetradapt::scene

@@ -32,6 +32,12 @@ namespace tetradapt::scene
       throw core::InputError(place.text() + ": " + text);
     }
 
+    [[noreturn]] void
+    refuse_nesting(const Place &place, const std::string &text)
+    {
+      throw NestingError(place.text() + ": " + text);
+    }
+
     /** Number of bytes of the UTF-8 character at @p i, 0 if there is none. */
     unsigned int
     utf8_length(const std::string &text, const std::size_t i)
@@ -63,9 +69,10 @@ namespace tetradapt::scene
           const unsigned int length = utf8_length(line, i);
           const auto         c      = static_cast<unsigned char>(line[i]);
           if (length == 0 || (c < 32 && c != '\t' && c != '\r'))
-            refuse(place,
-                   "this is not text in UTF-8 (byte " + std::to_string(c) + " at position "
-                     + std::to_string(i + 1) + "). Is it a parameter file? Save it as UTF-8.");
+            refuse_nesting(place,
+                           "this is not text in UTF-8 (byte " + std::to_string(c) + " at position "
+                             + std::to_string(i + 1)
+                             + "). Is it a parameter file? Save it as UTF-8.");
           i += length;
         }
     }
@@ -102,7 +109,7 @@ namespace tetradapt::scene
     class Reader
     {
     public:
-      explicit Reader(PrmSink &sink) : sink(sink)
+      Reader(PrmSink &sink, Mistakes &mistakes) : sink(sink), mistakes(mistakes)
       {
       }
 
@@ -121,10 +128,11 @@ namespace tetradapt::scene
         const std::size_t depth = open.size();
         read_lines(lines, file, depth);
         if (open.size() > depth)
-          refuse(open.back(),
-                 "subsection '" + path.back()
-                   + "' has no end. Add a line 'end' where it is finished; every subsection "
-                     "needs its own.");
+          refuse_nesting(
+            open.back(),
+            "subsection '" + path.back()
+              + "' has no end. Add a line 'end' where it is finished; every subsection "
+                "needs its own.");
         open_files.pop_back();
       }
 
@@ -155,7 +163,25 @@ namespace tetradapt::scene
               read_line(trim(logical), {file, first}, depth);
           }
         if (continued)
-          refuse({file, n}, "the last line ends with a backslash, but no line follows.");
+          refuse_nesting({file, n}, "the last line ends with a backslash, but no line follows.");
+      }
+
+      /** Notes what @p action throws; the part @p name cannot be relied on then. */
+      void
+      attempt(const std::string &name, const std::function<void()> &action)
+      {
+        try
+          {
+            action();
+          }
+        catch (const NestingError &)
+          {
+            throw;
+          }
+        catch (const core::InputError &error)
+          {
+            mistakes.add_message(error.what(), name, false);
+          }
       }
 
       void
@@ -165,37 +191,91 @@ namespace tetradapt::scene
         const std::string keyword = line.substr(0, blank);
         const std::string rest    = blank == std::string::npos ? "" : trim(line.substr(blank));
         if (keyword == "subsection")
-          {
-            if (rest.empty())
-              refuse(place, "this subsection has no name. Write 'subsection name'.");
-            path.push_back(rest);
-            open.push_back(place);
-            sink.enter(path, place);
-          }
+          read_subsection(rest, place);
         else if (keyword == "end")
+          read_end(rest, place, depth);
+        else if (!is_left_out())
+          attempt(full_name(path), [&]() {
+            if (keyword == "set")
+              read_set(rest, place);
+            else if (keyword == "include")
+              read_include(rest, place);
+            else
+              refuse_keyword(keyword, line, place);
+          });
+      }
+
+      /** Whether the present line is in a subsection that the sink refused. */
+      bool
+      is_left_out() const
+      {
+        return left_out > 0;
+      }
+
+      void
+      read_subsection(const std::string &name, const Place &place)
+      {
+        SectionPath inner = path;
+        inner.push_back(name);
+        bool refused = true;
+        if (!is_left_out())
+          attempt(full_name(inner), [&]() {
+            if (name.empty())
+              refuse(place, "this subsection has no name. Write 'subsection name'.");
+            sink.enter(inner, place);
+            refused = false;
+          });
+        path = inner;
+        open.push_back(place);
+        if (refused && !is_left_out())
+          left_out = open.size();
+      }
+
+      void
+      read_end(const std::string &rest, const Place &place, const std::size_t depth)
+      {
+        if (!rest.empty())
+          attempt(full_name(path), [&]() {
+            refuse(place, "'" + rest + "' follows 'end'. Write 'end' alone on its line.");
+          });
+        if (open.size() <= depth)
+          refuse_nesting(place, "this 'end' ends no subsection. Remove it, or a line above it.");
+        if (left_out == open.size())
+          left_out = 0;
+        path.pop_back();
+        open.pop_back();
+      }
+
+      [[noreturn]] static void
+      refuse_keyword(const std::string &keyword, const std::string &line, const Place &place)
+      {
+        const std::vector<std::string> keywords{"subsection", "end", "set", "include"};
+        const std::string              text = "'" + line
+                                 + "' begins with none of subsection, end, set and include. "
+                                 + suggest(keyword, keywords);
+        const auto near = nearest_names(keyword, keywords);
+        if (!near.empty() && (near[0] == "subsection" || (near[0] == "end" && keyword == line)))
+          refuse_nesting(place, text);
+        refuse(place, text);
+      }
+
+      void
+      read_include(const std::string &rest, const Place &place)
+      {
+        if (rest.empty())
+          refuse(place, "write 'include' and the name of a file.");
+        const fs::path name(rest);
+        const fs::path included
+          = name.is_absolute() ? name : fs::path(place.file).parent_path() / name;
+        try
           {
-            if (!rest.empty())
-              refuse(place, "'" + rest + "' follows 'end'. Write 'end' alone on its line.");
-            if (open.size() <= depth)
-              refuse(place, "this 'end' ends no subsection. Remove it, or a line above it.");
-            path.pop_back();
-            open.pop_back();
-          }
-        else if (keyword == "set")
-          read_set(rest, place);
-        else if (keyword == "include")
-          {
-            if (rest.empty())
-              refuse(place, "write 'include' and the name of a file.");
-            const fs::path name(rest);
-            const fs::path included
-              = name.is_absolute() ? name : fs::path(place.file).parent_path() / name;
             read(included.lexically_normal().string(), place.text() + ": ");
           }
-        else
-          refuse(place,
-                 "'" + line + "' begins with none of subsection, end, set and include. "
-                   + suggest(keyword, {"subsection", "end", "set", "include"}));
+        catch (const core::InputError &)
+          {
+            mistakes.give_up(); // who knows what that file says
+            throw;
+          }
       }
 
       void
@@ -209,16 +289,26 @@ namespace tetradapt::scene
       }
 
       PrmSink                 &sink;
+      Mistakes                &mistakes;
       SectionPath              path;
       std::vector<Place>       open; ///< where the subsections of path begin
       std::vector<std::string> open_files;
-      unsigned int             n_files = 0;
+      unsigned int             n_files  = 0;
+      std::size_t              left_out = 0; ///< open subsections up to the one left out; 0: none
     };
   } // namespace
 
   void
-  read_prm(const std::string &file, PrmSink &sink)
+  read_prm(const std::string &file, PrmSink &sink, Mistakes &mistakes)
   {
-    Reader(sink).read(file, "");
+    try
+      {
+        Reader(sink, mistakes).read(file, "");
+      }
+    catch (const core::InputError &error)
+      {
+        mistakes.add_message(error.what(), "");
+        mistakes.give_up();
+      }
   }
 } // namespace tetradapt::scene

@@ -2,6 +2,8 @@
 #ifndef tetradapt_scene_prm_lines_h
 #define tetradapt_scene_prm_lines_h
 
+#include "tetradapt/scene/mistakes.h"
+
 #include <string>
 #include <vector>
 
@@ -27,13 +29,22 @@ namespace tetradapt::scene
   std::string
   full_name(const SectionPath &path, const std::string &name = "");
 
+  /** The subsections of a file do not end where they should: what follows cannot be
+   * understood. */
+  class NestingError : public core::InputError
+  {
+  public:
+    using core::InputError::InputError;
+  };
+
   /** Is told what a parameter file says, in its order. */
   class PrmSink
   {
   public:
     virtual ~PrmSink() = default;
 
-    /** A subsection begins; @p path ends with its name. */
+    /** A subsection begins; @p path ends with its name. If it throws an InputError, what is in
+     * the subsection is left out. */
     virtual void
     enter(const SectionPath &path, const Place &place)
       = 0;
@@ -54,12 +65,11 @@ namespace tetradapt::scene
    * count from the folder of the file that includes them.
    *
    * Only lines and nesting are looked at here; what names and values mean is the
-   * sink's business.
-   * @throws InputError "file:line: ..." for what is wrong, and whatever the sink
-   *         throws.
+   * sink's business. What is wrong, also by what the sink throws, is added to @p mistakes as
+   * "file:line: ...", and the reading goes on in the next line; a NestingError ends it.
    */
   void
-  read_prm(const std::string &file, PrmSink &sink);
+  read_prm(const std::string &file, PrmSink &sink, Mistakes &mistakes);
 } // namespace tetradapt::scene
 
 #endif

@@ -2,12 +2,18 @@
 #ifndef tetradapt_scene_scene_checks_h
 #define tetradapt_scene_scene_checks_h
 
+#include "tetradapt/scene/mistakes.h"
 #include "tetradapt/scene/scene.h"
 
 #include <functional>
 
 namespace tetradapt::scene
 {
+  /** Checks each part of @p scene that could be read, and how those that are sound fit together;
+   * adds "<full name>: <what is wrong and what to change>" to @p mistakes. */
+  void
+  check_scene(const Scene &scene, Mistakes &mistakes);
+
   /** What the formulation asks of degree, materials, reference, goals and estimators.
    * @throws core::InputError */
   void

@@ -39,20 +39,22 @@ namespace tetradapt::scene
   void
   check_stiffness(const Scene &scene)
   {
+    Mistakes mistakes;
     for (const auto &material : scene.materials)
-      require(material.young_modulus >= smallest_modulus
-                && material.young_modulus <= largest_modulus,
-              "Materials/" + material.name + "/Young modulus",
-              "it is " + text_of(material.young_modulus) + "; " + text_of(smallest_modulus) + " to "
-                + text_of(largest_modulus)
-                + " can be computed with. Choose another unit of stress.");
+      mistakes.require(material.young_modulus >= smallest_modulus
+                         && material.young_modulus <= largest_modulus,
+                       "Materials/" + material.name + "/Young modulus",
+                       "it is " + text_of(material.young_modulus) + "; " + text_of(smallest_modulus)
+                         + " to " + text_of(largest_modulus)
+                         + " can be computed with. Choose another unit of stress.");
     const auto [soft, stiff] = softest_and_stiffest(scene);
-    require(stiff->young_modulus <= largest_contrast * soft->young_modulus,
-            "Materials/" + stiff->name + "/Young modulus",
-            contrast_message(*soft, *stiff)
-              + "rounding in the stiff part would spoil the soft one. Lower it (a contrast of 1e6 "
-                "is practically rigid), or leave the stiff part out and support the soft one where "
-                "they meet.");
+    mistakes.require(stiff->young_modulus <= largest_contrast * soft->young_modulus,
+                     "Materials/" + stiff->name + "/Young modulus",
+                     contrast_message(*soft, *stiff)
+                       + "rounding in the stiff part would spoil the soft one. Lower it (a "
+                         "contrast of 1e6 is practically rigid), or leave the stiff part out and "
+                         "support the soft one where they meet.");
+    mistakes.throw_together();
   }
 
   std::string

@@ -100,6 +100,53 @@ namespace tetradapt::scene
              text_codec("the name of a folder"),
              "Where it is kept; empty: output/cache below the working directory.");
     }
+
+    void
+    check_hexahedra(const ReferenceParameters &p, Mistakes &mistakes)
+    {
+      mistakes.require(p.degree == 2 || p.degree == 3,
+                       "Reference/Degree",
+                       "must be 2 or 3 for hexahedra.");
+      mistakes.require(p.tolerance >= 0. && p.tolerance < 1.,
+                       "Reference/Tolerance",
+                       "is a relative error: it must be positive and smaller than 1, or 0; it is "
+                         + text_of(p.tolerance) + ".");
+      mistakes.require(p.max_dofs >= 1000, "Reference/Maximum unknowns", "must be at least 1000.");
+    }
+
+    void
+    check_fine_mesh(const ReferenceParameters &p, Mistakes &mistakes)
+    {
+      mistakes.require(p.degree == 1 || p.degree == 2, "Reference/Degree", "must be 1 or 2.");
+      mistakes.require(p.volume_bound >= 0.,
+                       "Reference/Volume bound",
+                       "must be positive, or 0 for no bound; it is " + text_of(p.volume_bound)
+                         + ".");
+      mistakes.attempt([&]() { check_size(p.size, "Reference/Size"); });
+      mistakes.attempt(
+        [&]() { check_quality(p.radius_edge_ratio, p.dihedral_angle, "Reference"); });
+      if (p.route == ReferenceParameters::MeshRoute::refine)
+        mistakes.require(p.volume_bound > 0. || !p.size.empty(),
+                         "Reference/Mesh",
+                         "a reference that is refined from the first mesh needs Volume bound or "
+                         "Size, which say how fine it is.");
+      if (p.route == ReferenceParameters::MeshRoute::bricks)
+        mistakes.require(
+          p.cells[0] > 0 && p.cells[1] > 0 && p.cells[2] > 0
+            && 6. * p.cells[0] * p.cells[1] * p.cells[2] <= 1e8,
+          "Reference/Cells",
+          "there must be at least one brick in every direction, and not more than 100 "
+          "million tetrahedra.");
+      if (p.route == ReferenceParameters::MeshRoute::file)
+        {
+          mistakes.attempt([&]() {
+            require(!p.file.empty(),
+                    "Reference/File",
+                    "Mesh = file needs the name of a volume mesh.");
+            check_file(p.file, "Reference/File", {".msh", ".vtk", ".vtu", ".node", ".ele"});
+          });
+        }
+    }
   } // namespace
 
   void
@@ -117,13 +164,16 @@ namespace tetradapt::scene
   void
   SolverParameters::check() const
   {
-    require(tolerance > 0. && tolerance < 1.,
-            "Solver/Tolerance",
-            "must be between 0 and 1, such as 1e-8; it is " + text_of(tolerance) + ".");
-    require(max_iterations > 0, "Solver/Maximum iterations", "must be at least 1.");
-    require(solver_error_fraction > 0. && solver_error_fraction < 1.,
-            "Solver/Solver error fraction",
-            "must be between 0 and 1, such as 0.1; it is " + text_of(solver_error_fraction) + ".");
+    Mistakes mistakes;
+    mistakes.require(tolerance > 0. && tolerance < 1.,
+                     "Solver/Tolerance",
+                     "must be between 0 and 1, such as 1e-8; it is " + text_of(tolerance) + ".");
+    mistakes.require(max_iterations > 0, "Solver/Maximum iterations", "must be at least 1.");
+    mistakes.require(solver_error_fraction > 0. && solver_error_fraction < 1.,
+                     "Solver/Solver error fraction",
+                     "must be between 0 and 1, such as 0.1; it is " + text_of(solver_error_fraction)
+                       + ".");
+    mistakes.throw_together();
   }
 
   void
@@ -143,45 +193,18 @@ namespace tetradapt::scene
   {
     if (type == Type::none)
       return;
+    Mistakes mistakes;
     if (type == Type::run)
-      {
+      mistakes.attempt([&]() {
         require(!file.empty(),
                 "Reference/File",
                 "Type = earlier run needs the name of a run's .vtu file.");
         check_file(file, "Reference/File", {".vtu"});
-        return;
-      }
-    if (type == Type::hexahedra)
-      {
-        require(degree == 2 || degree == 3, "Reference/Degree", "must be 2 or 3 for hexahedra.");
-        require(tolerance >= 0. && tolerance < 1.,
-                "Reference/Tolerance",
-                "is a relative error: it must be positive and smaller than 1, or 0; it is "
-                  + text_of(tolerance) + ".");
-        require(max_dofs >= 1000, "Reference/Maximum unknowns", "must be at least 1000.");
-        return;
-      }
-    require(degree == 1 || degree == 2, "Reference/Degree", "must be 1 or 2.");
-    require(volume_bound >= 0.,
-            "Reference/Volume bound",
-            "must be positive, or 0 for no bound; it is " + text_of(volume_bound) + ".");
-    check_size(size, "Reference/Size");
-    check_quality(radius_edge_ratio, dihedral_angle, "Reference");
-    if (route == MeshRoute::refine)
-      require(volume_bound > 0. || !size.empty(),
-              "Reference/Mesh",
-              "a reference that is refined from the first mesh needs Volume bound or Size, which "
-              "say how fine it is.");
-    if (route == MeshRoute::bricks)
-      require(cells[0] > 0 && cells[1] > 0 && cells[2] > 0
-                && 6. * cells[0] * cells[1] * cells[2] <= 1e8,
-              "Reference/Cells",
-              "there must be at least one brick in every direction, and not more than 100 "
-              "million tetrahedra.");
-    if (route == MeshRoute::file)
-      {
-        require(!file.empty(), "Reference/File", "Mesh = file needs the name of a volume mesh.");
-        check_file(file, "Reference/File", {".msh", ".vtk", ".vtu", ".node", ".ele"});
-      }
+      });
+    else if (type == Type::hexahedra)
+      check_hexahedra(*this, mistakes);
+    else
+      check_fine_mesh(*this, mistakes);
+    mistakes.throw_together();
   }
 } // namespace tetradapt::scene

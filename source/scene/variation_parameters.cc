@@ -43,22 +43,24 @@ namespace tetradapt::scene
   void
   VariationParameters::check() const
   {
+    Mistakes          mistakes;
     const std::string path = "Study/" + name + "/";
-    require(!parameters.empty(), path + "Parameters", "name the parameter that varies.");
-    require(!cases.empty(), path + "Values", "give at least one value.");
+    mistakes.require(!parameters.empty(), path + "Parameters", "name the parameter that varies.");
+    mistakes.require(!cases.empty(), path + "Values", "give at least one value.");
     for (const auto &values : cases)
-      require(values.size() == parameters.size(),
-              path + "Values",
-              "a case has " + std::to_string(values.size()) + " values for "
-                + std::to_string(parameters.size())
-                + " parameters. Separate cases by |, and values in a case by &.");
+      mistakes.require(parameters.empty() || values.size() == parameters.size(),
+                       path + "Values",
+                       "a case has " + std::to_string(values.size()) + " values for "
+                         + std::to_string(parameters.size())
+                         + " parameters. Separate cases by |, and values in a case by &.");
     for (const auto &parameter : parameters)
-      require(parameter.compare(0, 6, "Study/") != 0,
-              path + "Parameters",
-              "a study cannot vary a study.");
-    require(labels.empty() || labels.size() == cases.size(),
-            path + "Labels",
-            "there are " + std::to_string(labels.size()) + " labels for "
-              + std::to_string(cases.size()) + " cases. Give one each, or none.");
+      mistakes.require(parameter.compare(0, 6, "Study/") != 0,
+                       path + "Parameters",
+                       "a study cannot vary a study.");
+    mistakes.require(labels.empty() || labels.size() == cases.size(),
+                     path + "Labels",
+                     "there are " + std::to_string(labels.size()) + " labels for "
+                       + std::to_string(cases.size()) + " cases. Give one each, or none.");
+    mistakes.throw_together();
   }
 } // namespace tetradapt::scene

@@ -79,7 +79,7 @@ namespace tetradapt::solve
       // Looked at now and then only: the rate sums over all steps.
       return limits.give_up_from > 0 && result.iterations >= limits.give_up_from
              && result.iterations % 10 == 0
-             && foretell(result, limits, estimate) > limits.max_iterations;
+             && predict(result, limits, estimate) > limits.max_iterations;
     }
   } // namespace
 

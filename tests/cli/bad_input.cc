@@ -78,8 +78,9 @@ namespace
     for (auto at = text.find(here); at != std::string::npos; at = text.find(here))
       text.replace(at, here.size(), "");
     const std::string unread = "cannot be read: ";
-    const auto        at     = text.find(unread);
-    return at == std::string::npos ? text : text.substr(0, at + unread.size()) + "...";
+    for (auto at = text.find(unread); at != std::string::npos; at = text.find(unread, at + 1))
+      text.replace(at + unread.size(), text.find('\n', at) - at - unread.size(), "...");
+    return text;
   }
 
   unsigned int n_cases = 0, n_refused = 0;
@@ -231,9 +232,9 @@ namespace
     scene("body force on faces", with_line(18, "subsection tip\nset Type = body force"));
     scene("no material", "subsection Supports\nsubsection a\nend\nend");
     scene("no support",
-          "subsection Materials\nsubsection a\nend\nend\nsubsection Loads\nsubsection b\nset Value "
-          "= 0; 0; 1\nend\nend");
-    scene("free in y", with_line(14, "set Components = x, z"));
+          "subsection Materials\nsubsection a\nend\nend\nsubsection Loads\nsubsection b\nset "
+          "Groups = x-max\nset Value = 0; 0; 1\nend\nend");
+    scene("free in y", with_line(14, "set Where = x < 1e-9\nset Components = x, z"));
     scene("no load", with_line(20, "set Value = 0; 0; 0"));
     scene("two materials everywhere", with_line(10, "end\nsubsection fat\nend"));
     scene("region twice",
@@ -242,8 +243,48 @@ namespace
           with_line(15,
                     "end\nsubsection pull\nset Where = x < 1e-9\nset Displacement = 0; 0; 1\nend"));
     scene("displacement of a free component",
-          with_line(14, "set Components = x, y\nset Displacement = 0; 0; 1"));
+          with_line(14, "set Where = x < 1e-9\nset Components = x, y\nset Displacement = 0; 0; 1"));
     scene("predicate that never holds", with_line(14, "set Where = 1 > 2"));
+  }
+
+  /** What holds somewhere else than was meant. */
+  void
+  bad_conditions()
+  {
+    scene("assignment", with_line(14, "set Where = x = 0.5"));
+    scene("assignment to what is none", with_line(14, "set Where = y < 1 && (2*x - y) = 0.5"));
+    scene("assignment in a value", with_line(20, "set Value = 0; 0; if(z = 1, 1, 0)"));
+    scene("assignment without a side", with_line(14, "set Where = x =< 0.5"));
+    scene("chained comparison", with_line(14, "set Where = x < 1 && 0.2 <= y < 0.75"));
+    scene("chained comparison in a value", with_line(20, "set Value = 0; 0; if(0.1<y<0.9, -1, 0)"));
+    scene("comparison of truths", with_line(14, "set Where = (x < 1) == (y < 0.5) && x <= 2"));
+    scene("support nowhere", with_line(14, "set Components = all"));
+    scene("load nowhere", with_line(19, "set Type = traction"));
+    scene("pressure everywhere",
+          with_line(19,
+                    "set Type = pressure\nset Where = everywhere\nset Value = 2\nend\nsubsection b"
+                    "\nset Groups = x-max"));
+    scene("everywhere and a group", with_line(19, "set Groups = x-max\nset Where = everywhere"));
+    scene("body force everywhere",
+          with_line(18,
+                    "subsection tip\nset Type = body force\nset Where = everywhere\nend\n"
+                    "subsection b"));
+    scene("mean displacement nowhere",
+          and_then("subsection Goals\nsubsection g\nset Type = mean displacement\nend\nend"));
+    scene("traction weight nowhere",
+          and_then("subsection Goals\nsubsection g\nset Type = functional\nset Traction weight = "
+                   "1; 0; 0\nend\nend"));
+    scene("time in a load", with_line(20, "set Value = 0; 0; -sin(2*t)"));
+    scene("time in a condition", with_line(14, "set Where = x < 0.1 + t"));
+    scene("time in a support", with_line(14, "set Where = x < 1e-9\nset Displacement = 0; t; 0"));
+    scene("time in a size", with_line(3, "set Size = 1 + t"));
+    scene("time in a goal",
+          and_then(
+            "subsection Goals\nsubsection g\nset Type = mean stress\nset Component = xx\nset "
+            "Weight = 1 + t\nend\nend"));
+    scene("time in the exact solution",
+          and_then("subsection Exact solution\nset Displacement = x; t*y; 0\nend"));
+    scene("a name that begins with t", with_line(20, "set Value = 0; 0; -tanh(y)"));
   }
 
   void
@@ -365,6 +406,43 @@ namespace
           "  set Values = 2 | 5\n end\nend\n");
   }
 
+  /** Several mistakes in one file: each is told, in the order of the lines, and nothing that
+   * only follows from one. */
+  void
+  many_mistakes()
+  {
+    scene(
+      "names, values and checks",
+      "set Degre = 1\n"
+      "subsection Mesh\n set Type = box\n set Upper corner = 10, 1\nend\n"
+      "subsection Materials\n subsection bone\n  set Young modulus = stiff\n  set Poisson ratio "
+      "= 0.7\n  set Density = -2\n end\nend\n"
+      "subsection Supports\n subsection foot\n  set Where = x = 0\n end\n subsection hand\n  set "
+      "Wher = x > 9\n end\nend\n"
+      "subsection Load\n subsection tip\n  set Value = 0; 0; -1\n end\nend\n"
+      "subsection Solver\n set Tolerance = 2\n set Maximum iterations = 0\nend\n");
+    scene("parameters of an earlier version",
+          and_then("subsection Truth\n set Energy = 1\nend\nsubsection Adaptivity\n set Driver = "
+                   "spr\n set Route = size\n set Growth = 0.5\nend"));
+    scene("two lines that are none",
+          with_line(5,
+                    "end\nand so on\nset Title\nsubsection Estimation\nset Estimator = spr\nend"));
+    scene("a mistake and a missing end", with_line(8, "set Young modulos = 7\nend"));
+    write("wrong.prm", "subsection TetGen\n set Radius-edge ratio = 1\n set Tetrahedra = 7\nend\n");
+    scene("a mistake in an included file",
+          "include wrong.prm\n" + with_line(9, "set Density = -1"));
+    scene("a missing file and a mistake",
+          "include wrongs.prm\n" + with_line(9, "set Densitie = 1"));
+    scene("a study with mistakes in several runs",
+          and_then(
+            "subsection Study\n subsection a\n  set Parameters = Degree & Materials/bone/Poisson "
+            "ratio\n  set Values = 1 & 0.3 | 3 & 0.4 | 2 & 0.6\n end\nend"));
+    std::string lines;
+    for (unsigned int i = 0; i < 32; ++i)
+      lines += "A letter, line " + std::to_string(i) + "\n";
+    scene("a text", lines);
+  }
+
   void
   bad_command_lines()
   {
@@ -391,10 +469,12 @@ main()
   wrong_values();
   nonsense_physics();
   formulation();
+  bad_conditions();
   bad_expressions();
   bad_meshes();
   bad_studies();
   bad_variations();
+  many_mistakes();
   bad_command_lines();
   std::cout << n_refused << " of " << n_cases << " refused\n";
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // What is selected of a box, of blocks with a wall inside and of a surface has its exact area on
-// the first mesh, on refined ones and on those that are made anew with coarser cells.
+// the first mesh, on refined ones and on those that are made from scratch with coarser cells.
 
 #include "tetradapt/mesh/selection_cuts.h"
 

@@ -213,7 +213,8 @@ end
   {
     const std::string u = "y*z; x*z + 0.1*x^2; x*y";
     const std::string text
-      = cube + "subsection Supports\n subsection all\n set Displacement = " + u
+      = cube
+        + "subsection Supports\n subsection all\n set Where = everywhere\n set Displacement = " + u
         + "\n end\nend\nsubsection Loads\n subsection f\n set Type = body force\n"
           " set Value = 0; -80; 0\n end\nend\nsubsection Exact solution\n set Displacement = "
         + u + "\nend\n";

@@ -15,7 +15,7 @@ namespace tetradapt::cli
    * other rooms know (the names of constitutive laws), and applies
    * Options::output_directory: one scene writes there, several write to folders
    * with their names in it.
-   * @throws InputError.
+   * @throws InputError of all mistakes.
    */
   scene::Scene
   load_scene(const std::string &file, const Options &options);
@@ -33,8 +33,8 @@ namespace tetradapt::cli
    * Reads all runs of a study, the last variation changing fastest. Each writes to a folder
    * with its name in that of the study.
    * @param study what load_scene() made of the study's file.
-   * @throws InputError for the first run that is not valid, with the line of the values
-   *         that are to blame.
+   * @throws InputError of the mistakes of all runs, each with the line of the values that are
+   *         to blame.
    */
   std::vector<StudyRun>
   load_study(const scene::Scene &study, const Options &options);

@@ -16,6 +16,7 @@ namespace tetradapt::cli
     {
       run,
       validate,
+      preview,
       print_parameters,
       help,
       version

@@ -4,6 +4,8 @@
 
 #include "tetradapt/cli/run_scene.h"
 #include "tetradapt/cli/study_tables.h"
+#include "tetradapt/core/log.h"
+#include "tetradapt/scene/mistakes.h"
 
 #include <vector>
 
@@ -27,10 +29,13 @@ namespace tetradapt::cli
             MPI_Comm                     communicator,
             MPI_Comm                     control);
 
-  /** Checks the input of all runs that differ in it, by check_inputs(). @throws InputError
-   * naming the run. */
+  /** Checks the input of all runs that differ in it, by check_inputs(); @p mistakes gets what is
+   * wrong, with the names of the runs. */
   void
-  check_study_inputs(const scene::Scene &study, const std::vector<StudyRun> &runs);
+  check_study_inputs(const scene::Scene          &study,
+                     const std::vector<StudyRun> &runs,
+                     scene::Mistakes             &mistakes,
+                     const core::Log             &log);
 } // namespace tetradapt::cli
 
 #endif

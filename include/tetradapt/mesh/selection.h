@@ -32,6 +32,11 @@ namespace tetradapt::mesh
     interior ///< it holds at the centroid: for surfaces into which its border was cut
   };
 
+  /** @throws core::InputError if @p selector, of the support or load @p name, names a boundary id
+   * or a group that no face of @p mesh has; with what there is to choose from. */
+  void
+  check_names(const TetMesh &mesh, const std::string &name, const scene::Selector &selector);
+
   /**
    * Evaluates selectors on the boundary of @p mesh, a finalized one, and splits
    * its patches so that all faces of a patch are selected by the same ones. The

@@ -8,9 +8,9 @@
 namespace tetradapt::mesh
 {
   /**
-   * Reads a tetrahedral mesh, finalizes it and checks that it fills space once. The ending of the name tells the
-   * format: .msh (read_msh()), .vtk (read_vtk()), .vtu (read_vtu()), .node, .ele
-   * or .face (read_node_ele()).
+   * Reads a tetrahedral mesh, finalizes it and checks that it fills space once. The ending of the
+   * name tells the format: .msh (read_msh()), .vtk (read_vtk()), .vtu (read_vtu()), .node, .ele or
+   * .face (read_node_ele()).
    *
    * @throws core::InputError if the file does not exist, has another ending, is
    *         damaged (with the line or byte) or does not pass finalize() or

@@ -33,6 +33,12 @@ namespace tetradapt::mesh
      * point array "displacement". @p field must outlive the writer. */
     explicit VtuWriter(const NodalField &field);
 
+    /** For data at the faces of the boundary of @p mesh: these triangles, in the order of
+     * TetMesh::faces, are the cells of the file, and only their points are written. @p mesh must
+     * outlive the writer. */
+    static VtuWriter
+    of_boundary(const TetMesh &mesh);
+
     /** Number of values of a point array with one component. */
     unsigned int
     n_points() const
@@ -117,12 +123,17 @@ namespace tetradapt::mesh
                 std::size_t                n_tuples,
                 const std::vector<double> &values,
                 Precision                  precision);
+    /** A writer without geometry yet. */
+    VtuWriter(const TetMesh &mesh, unsigned int n_nodes, unsigned int n_cells);
     void
     add_geometry();
+    void
+    add_types(std::uint8_t type, unsigned int n_local);
 
     const TetMesh     &mesh;
     const NodalField  *field = nullptr;
     unsigned int       n_nodes;
+    unsigned int       n_cells; ///< of the file: tetrahedra, or triangles
     std::vector<Array> arrays;
   };
 } // namespace tetradapt::mesh

@@ -2,6 +2,7 @@
 #ifndef tetradapt_scene_scene_reader_h
 #define tetradapt_scene_scene_reader_h
 
+#include "tetradapt/scene/mistakes.h"
 #include "tetradapt/scene/scene.h"
 
 namespace tetradapt::scene
@@ -22,10 +23,18 @@ namespace tetradapt::scene
    * @param overrides texts "Section/Name=value" as given to --set on the command
    *        line. Blocks must exist in the file.
    * @return the scene, which Scene::check() has accepted.
-   * @throws InputError "file:line: <name>: <what is wrong and what to change>".
+   * @throws InputError "file:line: <name>: <what is wrong and what to change>"; of several
+   *         mistakes a list, see Mistakes::throw_if_any().
    */
   Scene
   read_scene(const std::string &file, const std::vector<std::string> &overrides = {});
+
+  /** As above, but what is wrong is added to @p mistakes, with its place; the scene can be used
+   * only if that is nothing. */
+  Scene
+  read_scene(const std::string              &file,
+             const std::vector<std::string> &overrides,
+             Mistakes                       &mistakes);
 
   /**
    * One run of a study: reads a scene as read_scene() does, with the parameters that its
@@ -34,13 +43,14 @@ namespace tetradapt::scene
    * back has no variations.
    *
    * @param cases for each variation the number of the case.
-   * @throws InputError "file:line: ...", the line being that of the study's values if these
-   *         are to blame.
+   * @param mistakes gets what is wrong, "file:line: ...", the line being that of the study's
+   *        values if these are to blame.
    */
   Scene
   read_study_run(const std::string               &file,
                  const std::vector<std::string>  &overrides,
-                 const std::vector<unsigned int> &cases);
+                 const std::vector<unsigned int> &cases,
+                 Mistakes                        &mistakes);
 } // namespace tetradapt::scene
 
 #endif

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/mechanics/held_loads.h"
+
+#include "tetradapt/core/expression.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace tetradapt::mechanics
+{
+  namespace
+  {
+    /** Components x, y, z as bits 1, 2, 4. */
+    using Components = unsigned int;
+
+    /** Components of a normal below are rounding. */
+    constexpr double smallest_component = 1e-9;
+
+    /** Those of a traction that are not the constant zero. */
+    Components
+    components_of(const scene::LoadParameters &load)
+    {
+      Components components = 0;
+      for (unsigned int c = 0; c < 3; ++c)
+        {
+          const core::Expression value(load.value[c], "Loads/" + load.name + "/Value");
+          if (!value.is_constant() || value(core::Point<3>()) != 0.)
+            components |= 1u << c;
+        }
+      return components;
+    }
+
+    Components
+    components_of(const dealii::Tensor<1, 3> &normal)
+    {
+      Components components = 0;
+      for (unsigned int c = 0; c < 3; ++c)
+        if (std::abs(normal[c]) > smallest_component * normal.norm())
+          components |= 1u << c;
+      return components;
+    }
+
+    /** What supports prescribe on a patch. */
+    struct Hold
+    {
+      Components                                      components = 0;
+      std::vector<std::pair<std::string, Components>> supports;
+    };
+
+    std::vector<Hold>
+    holds_of(const scene::Scene &scene, const mesh::TetMesh &mesh)
+    {
+      std::vector<Hold> holds(mesh.patches.size());
+      for (const auto &support : scene.supports)
+        {
+          Components components = 0;
+          for (unsigned int c = 0; c < 3; ++c)
+            components |= (support.components[c] ? 1u : 0u) << c;
+          const std::string name = "Supports/" + support.name;
+          for (unsigned int p = 0; p < mesh.patches.size(); ++p)
+            {
+              const auto &selections = mesh.patches[p].selections;
+              if (std::count(selections.begin(), selections.end(), name) == 0)
+                continue;
+              holds[p].components |= components;
+              holds[p].supports.emplace_back(name, components);
+            }
+        }
+      return holds;
+    }
+
+    HeldLoad
+    look_at(const scene::LoadParameters &load,
+            const mesh::TetMesh         &mesh,
+            const std::vector<Hold>     &holds)
+    {
+      HeldLoad result;
+      result.name                  = "Loads/" + load.name;
+      const bool       is_pressure = load.type == scene::LoadType::pressure;
+      const Components fixed       = is_pressure ? 0 : components_of(load);
+      for (const auto &face : mesh.faces)
+        {
+          const auto &selections = mesh.patches[face.patch].selections;
+          if (std::count(selections.begin(), selections.end(), result.name) == 0)
+            continue;
+          const auto       normal = mesh::face_area_vector(mesh, face);
+          const double     area   = normal.norm();
+          const Components own    = is_pressure ? components_of(normal) : fixed;
+          const Hold      &hold   = holds[face.patch];
+          result.area += area;
+          if ((own & hold.components) == 0)
+            continue;
+          ((own & ~hold.components) == 0 ? result.held_area : result.partly_area) += area;
+          for (const auto &[name, components] : hold.supports)
+            if ((own & components) != 0)
+              result.supports.insert(name);
+        }
+      return result;
+    }
+
+    /** "12 %", and no "100 %" for what is less. */
+    std::string
+    percent(const double part)
+    {
+      std::ostringstream text;
+      text.precision(3);
+      text << (part < 1. ? std::min(100. * part, 99.9) : 100.) << " %";
+      return text.str();
+    }
+  } // namespace
+
+  std::vector<HeldLoad>
+  held_loads(const scene::Scene &scene, const mesh::TetMesh &mesh)
+  {
+    const std::vector<Hold> holds = holds_of(scene, mesh);
+    std::vector<HeldLoad>   result;
+    for (const auto &load : scene.loads)
+      {
+        HeldLoad held = look_at(load, mesh, holds);
+        if (held.held_area > 0. || held.partly_area > 0.)
+          result.push_back(std::move(held));
+      }
+    return result;
+  }
+
+  std::vector<std::string>
+  held_load_warnings(const scene::Scene &scene, const mesh::TetMesh &mesh)
+  {
+    std::vector<std::string> warnings;
+    for (const HeldLoad &load : held_loads(scene, mesh))
+      {
+        std::string supports;
+        for (const std::string &name : load.supports)
+          supports += (supports.empty() ? "" : " and ") + name;
+        const std::string end = " by " + supports + ", which "
+                                + (load.supports.size() == 1 ? "takes" : "take")
+                                + " it up: it deforms nothing there. Choose other faces for one of "
+                                  "them, or free these components.";
+        if (load.held_area > 0.)
+          warnings.push_back(load.name + ": all components of this load are held on "
+                             + percent(load.held_area / load.area) + " of its area" + end);
+        if (load.partly_area > 0.)
+          warnings.push_back(load.name + ": some components of this load are held on "
+                             + percent(load.partly_area / load.area) + " of its area" + end);
+      }
+    return warnings;
+  }
+} // namespace tetradapt::mechanics
