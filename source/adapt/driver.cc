@@ -66,8 +66,7 @@ namespace tetradapt::adapt
   void
   Driver::run()
   {
-    const bool first = is_first_rank(communicator);
-    if (first)
+    if (is_first_rank(communicator))
       for (Observer *observer : observers)
         observer->run_started(scene);
 

@@ -3,14 +3,15 @@
 
 #include "tetradapt/adapt/mesh_maker.h"
 #include "tetradapt/adapt/placement.h"
-#include "tetradapt/core/exceptions.h"
+#include "tetradapt/cli/outcome.h"
 #include "tetradapt/core/on_first_rank.h"
+#include "tetradapt/core/printable.h"
 #include "tetradapt/mechanics/supports.h"
 #include "tetradapt/report/log_sinks.h"
 #include "tetradapt/report/mesh_summary.h"
 #include "tetradapt/report/preview.h"
+#include "tetradapt/report/result_folder.h"
 
-#include <filesystem>
 #include <iostream>
 
 namespace tetradapt::cli
@@ -18,30 +19,22 @@ namespace tetradapt::cli
   namespace
   {
     void
-    make_directory(const std::string &directory)
-    {
-      std::error_code error;
-      std::filesystem::create_directories(directory, error);
-      if (!std::filesystem::is_directory(directory))
-        throw core::InputError("Output/Directory: '" + directory + "' cannot be made"
-                               + (error ? ": " + error.message() : "")
-                               + ". Choose another folder.");
-    }
-
-    void
     show(const scene::Scene   &scene,
          const std::string    &directory,
          const bool            quiet,
          const adapt::NewMesh &made,
          const core::Log      &log)
     {
-      const std::string file = directory + "/preview.vtu";
       log.info("First mesh: " + report::mesh_line(*made.mesh, made.record));
-      make_directory(directory);
+      report::ResultFolder folder(directory);
+      const std::string    file = folder.prepare("preview.vtu");
       report::write_preview(file, scene, *made.mesh);
       if (!quiet)
-        std::cout << report::preview_tables(scene, *made.mesh) << "\nThe surface is in " << file
-                  << "." << std::endl;
+        {
+          std::cout << core::printable(report::preview_tables(scene, *made.mesh)
+                                       + "\nThe surface is in " + file + ".\n");
+          require_written(std::cout);
+        }
       for (const auto &warning : scene.warnings())
         log.warning(warning);
       adapt::check_placement(scene, made.mesh, log);

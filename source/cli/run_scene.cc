@@ -136,7 +136,7 @@ namespace tetradapt::cli
           close();
         }
         if (!options.quiet && !options.brief)
-          std::cout << '\n' << answer.text() << std::flush;
+          std::cout << '\n' << core::printable(answer.text()) << std::flush;
         check_output();
       }
 

@@ -5,20 +5,18 @@
 
 namespace tetradapt::compare
 {
-  GivenLoads::Value::Value(const std::array<std::string, 3> &texts,
-                           const std::string                &what,
-                           const core::Expression::Variables variables)
-    : expression(texts, what, variables), is_constant(expression.is_constant()),
+  GivenLoads::Value::Value(const std::array<std::string, 3> &texts, const std::string &what)
+    : expression(texts, what), is_constant(expression.is_constant()),
       uses_normal(expression.uses_normal())
   {
     if (is_constant)
-      constant = expression(Point<3>());
+      constant = expression(Point<3>(), Tensor<1, 3>());
   }
 
   GivenLoads::GivenLoads(const scene::Scene           &scene,
                          const mechanics::MaterialMap &materials,
                          const mesh::TetMesh          &mesh)
-    : mesh(mesh), patches(mesh.patches.size())
+    : mesh(mesh), mesh_parameters(scene.mesh), patches(mesh.patches.size())
   {
     const auto for_patches = [&](const std::string &selection, const auto &action) {
       for (unsigned int p = 0; p < patches.size(); ++p)
@@ -48,8 +46,7 @@ namespace tetradapt::compare
               values.emplace_back(is_pressure
                                     ? std::array<std::string, 3>{{load.value[0], "0", "0"}}
                                     : load.value,
-                                  what + "/Value",
-                                  core::Expression::Variables::point_and_normal);
+                                  what + "/Value");
               for_patches(what, [&](PatchConditions &patch) {
                 patch.loads.push_back({value, is_pressure});
               });
@@ -83,9 +80,7 @@ namespace tetradapt::compare
       {
         const Value       &given = values[load.value];
         const Tensor<1, 3> value
-          = given.uses_normal
-              ? given(mesh::SurfacePoint{point, mesh::surface_point(mesh, face, point).normal})
-              : given(point);
+          = given.uses_normal ? given(point, surface().at(face, point).normal) : given(point);
         sum += load.is_pressure ? -value[0] * normal : value;
       }
     return sum;
@@ -97,10 +92,18 @@ namespace tetradapt::compare
     Tensor<1, 3> sum;
     for (const auto &load : patches[mesh.faces[face].patch].loads)
       {
-        const Tensor<1, 3> value = values[load.value](at);
+        const Tensor<1, 3> value = values[load.value](at.point, at.normal);
         sum += load.is_pressure ? -value[0] * at.normal : value;
       }
     return sum;
+  }
+
+  const mesh::TrueSurface &
+  GivenLoads::surface() const
+  {
+    if (true_surface == nullptr)
+      true_surface = std::make_unique<mesh::TrueSurface>(mesh_parameters, mesh);
+    return *true_surface;
   }
 
   Tensor<1, 3>

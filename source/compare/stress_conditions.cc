@@ -2,7 +2,7 @@
 #include "tetradapt/compare/stress_conditions.h"
 
 #include "tetradapt/compare/field_evaluator.h"
-#include "tetradapt/mesh/surface_point.h"
+#include "tetradapt/mesh/true_surface.h"
 
 #include <algorithm>
 
@@ -78,11 +78,10 @@ namespace tetradapt::compare
     /** The conditions of the points of boundary face @p f of @p cell, each with its own normal
      * on the body's true surface. */
     void
-    add_curved_face(const mesh::TetMesh &mesh,
-                    const unsigned int   f,
-                    const Face          &flat,
-                    const GivenLoads    &loads,
-                    std::vector<Face>   &faces)
+    add_curved_face(const unsigned int f,
+                    const Face        &flat,
+                    const GivenLoads  &loads,
+                    std::vector<Face> &faces)
     {
       const unsigned char known = loads.known_components(f);
       for (unsigned int q = 0; q < flat.n_points; ++q)
@@ -91,7 +90,7 @@ namespace tetradapt::compare
           face.local_face = flat.local_face;
           face.n_points   = 1;
           face.corner     = flat.n_points == 1 ? dealii::numbers::invalid_unsigned_int : q;
-          const mesh::SurfacePoint at = mesh::surface_point(mesh, f, flat.points[q]);
+          const mesh::SurfacePoint at = loads.surface().at(f, flat.points[q]);
           face.points[0]              = at.point;
           Tensor<1, 3> tractions[3];
           if (loads.has_traction(f))
@@ -134,8 +133,8 @@ namespace tetradapt::compare
                             * Tensor<1, 3>(mesh.points[v[i]]);
 
       const unsigned char known = loads.known_components(f);
-      if (known != 0 && mesh::has_curved_faces(mesh))
-        return add_curved_face(mesh, f, face, loads, faces);
+      if (known != 0 && loads.surface().is_projected(f))
+        return add_curved_face(f, face, loads, faces);
       if (known != 0)
         {
           Tensor<1, 3> tractions[3];

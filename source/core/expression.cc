@@ -4,6 +4,7 @@
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/expression_tokens.h"
 #include "tetradapt/core/selectors.h"
+#include "tetradapt/core/surface_expression.h"
 
 #include <muParser.h>
 
@@ -96,66 +97,108 @@ namespace tetradapt::core
     }
   } // namespace
 
-  struct Expression::Implementation
+  namespace
   {
-    std::string           text, what;
-    Variables             known;
-    std::array<double, 7> variables{};
-    mu::Parser            parser;
-    bool                  constant = false, normal = false;
-
-    Implementation(const std::string &text, const std::string &what, const Variables known)
-      : text(text), what(what), known(known)
+    /** A text and its parser, which points to the variables. */
+    struct Parsed
     {
-      const bool with_normal = known == Variables::point_and_normal;
-      if (text.find_first_not_of(" \t\n\r") == std::string::npos)
-        throw InputError(what + ": the expression is empty. Give a function of x, y, z and t.");
-      check_expression_syntax(text, what);
-      try
-        {
-          define_names(parser);
-          const char *names[] = {"x", "y", "z", "t", "nx", "ny", "nz"};
-          for (unsigned int i = 0; i < (with_normal ? 7 : 4); ++i)
-            parser.DefineVar(names[i], &variables[i]);
-          parser.SetExpr(with_selector_points(text));
-          parser.Eval();
-          int n_values = 0;
-          parser.Eval(n_values);
-          if (n_values != 1)
-            throw InputError(what + ": '" + text + "' has " + std::to_string(n_values)
-                             + " values separated by commas where one is wanted. Components of a "
-                               "vector are separated by semicolons.");
-          const auto used = parser.GetUsedVar();
-          constant        = used.empty();
-          normal          = used.count("nx") + used.count("ny") + used.count("nz") > 0;
-        }
-      catch (const mu::Parser::exception_type &error)
-        {
-          throw InputError(what + ": the expression '" + text
-                           + "' cannot be read: " + error.GetMsg() + " Known are x, y, z, t, "
-                           + (with_normal ? "nx, ny, nz, " : "")
-                           + "pi, e, if(c,a,b), box, sphere, "
-                             "cylinder, half_space and the functions and operators of muParser.");
-        }
-      catch (const SelectorError &error)
-        {
-          throw InputError(what + ": the expression '" + text
-                           + "' cannot be evaluated: " + error.what());
-        }
-    }
+      Parsed(const Parsed &) = delete;
+      Parsed &
+      operator=(const Parsed &)
+        = delete;
+
+      std::string           text, what;
+      std::array<double, 7> variables{}; ///< x, y, z, t, nx, ny, nz
+      mu::Parser            parser;
+      bool                  constant = false, normal = false;
+
+      Parsed(const std::string &text, const std::string &what, const bool with_normal = false)
+        : text(text), what(what)
+      {
+        if (text.find_first_not_of(" \t\n\r") == std::string::npos)
+          throw InputError(what + ": the expression is empty. Give a function of x, y, z and t.");
+        check_expression_syntax(text, what);
+        try
+          {
+            define_names(parser);
+            const char *names[] = {"x", "y", "z", "t", "nx", "ny", "nz"};
+            for (unsigned int i = 0; i < (with_normal ? 7 : 4); ++i)
+              parser.DefineVar(names[i], &variables[i]);
+            parser.SetExpr(with_selector_points(text));
+            parser.Eval();
+            int n_values = 0;
+            parser.Eval(n_values);
+            if (n_values != 1)
+              throw InputError(what + ": '" + text + "' has " + std::to_string(n_values)
+                               + " values separated by commas where one is wanted. Components of a "
+                                 "vector are separated by semicolons.");
+            const auto used = parser.GetUsedVar();
+            constant        = used.empty();
+            normal          = used.count("nx") + used.count("ny") + used.count("nz") > 0;
+          }
+        catch (const mu::Parser::exception_type &error)
+          {
+            throw InputError(what + ": the expression '" + text
+                             + "' cannot be read: " + error.GetMsg() + " Known are x, y, z, t, "
+                             + (with_normal ? "nx, ny, nz, " : "")
+                             + "pi, e, if(c,a,b), box, sphere, "
+                               "cylinder, half_space and the functions and operators of muParser.");
+          }
+        catch (const SelectorError &error)
+          {
+            throw InputError(what + ": the expression '" + text
+                             + "' cannot be evaluated: " + error.what());
+          }
+      }
+
+      /** At what the variables are. */
+      double
+      evaluate()
+      {
+        const Point<3> point(variables[0], variables[1], variables[2]);
+        const double   t = variables[3];
+        double         value;
+        try
+          {
+            value = parser.Eval();
+          }
+        catch (const mu::Parser::exception_type &error)
+          {
+            throw InputError(what + ": the expression '" + text
+                             + "' cannot be evaluated: " + error.GetMsg());
+          }
+        catch (const SelectorError &error)
+          {
+            throw InputError(what + ": the expression '" + text
+                             + "' cannot be evaluated: " + error.what());
+          }
+        if (!std::isfinite(value))
+          {
+            std::ostringstream message;
+            message << what << ": the expression '" << text << "' is not finite at (" << point[0]
+                    << ", " << point[1] << ", " << point[2] << ")";
+            if (t != 0.)
+              message << ", t = " << t;
+            message << ". Change it so that it has a value everywhere on the mesh.";
+            throw InputError(message.str());
+          }
+        return value;
+      }
+    };
+  } // namespace
+
+  struct Expression::Implementation : Parsed
+  {
+    using Parsed::Parsed;
   };
 
-  Expression::Expression(const std::string &text,
-                         const std::string &what,
-                         const Variables    variables)
-    : implementation(std::make_unique<Implementation>(text, what, variables))
+  Expression::Expression(const std::string &text, const std::string &what)
+    : implementation(std::make_unique<Implementation>(text, what))
   {
   }
 
   Expression::Expression(const Expression &other)
-    : Expression(other.implementation->text,
-                 other.implementation->what,
-                 other.implementation->known)
+    : Expression(other.implementation->text, other.implementation->what)
   {
   }
 
@@ -176,48 +219,7 @@ namespace tetradapt::core
   Expression::operator()(const Point<3> &point, double t) const
   {
     implementation->variables = {{point[0], point[1], point[2], t, 0., 0., 0.}};
-    return evaluate(point);
-  }
-
-  double
-  Expression::operator()(const Point<3> &point, const Tensor<1, 3> &normal) const
-  {
-    implementation->variables
-      = {{point[0], point[1], point[2], 0., normal[0], normal[1], normal[2]}};
-    return evaluate(point);
-  }
-
-  double
-  Expression::evaluate(const Point<3> &point) const
-  {
-    const double t = implementation->variables[3];
-    double       value;
-    try
-      {
-        value = implementation->parser.Eval();
-      }
-    catch (const mu::Parser::exception_type &error)
-      {
-        throw InputError(implementation->what + ": the expression '" + implementation->text
-                         + "' cannot be evaluated: " + error.GetMsg());
-      }
-    catch (const SelectorError &error)
-      {
-        throw InputError(implementation->what + ": the expression '" + implementation->text
-                         + "' cannot be evaluated: " + error.what());
-      }
-    if (!std::isfinite(value))
-      {
-        std::ostringstream message;
-        message << implementation->what << ": the expression '" << implementation->text
-                << "' is not finite at (" << point[0] << ", " << point[1] << ", " << point[2]
-                << ")";
-        if (t != 0.)
-          message << ", t = " << t;
-        message << ". Change it so that it has a value everywhere on the mesh.";
-        throw InputError(message.str());
-      }
-    return value;
+    return implementation->evaluate();
   }
 
   bool
@@ -232,12 +234,6 @@ namespace tetradapt::core
     return implementation->constant;
   }
 
-  bool
-  Expression::uses_normal() const
-  {
-    return implementation->normal;
-  }
-
   const std::string &
   Expression::text() const
   {
@@ -245,11 +241,10 @@ namespace tetradapt::core
   }
 
   VectorExpression::VectorExpression(const std::array<std::string, 3> &texts,
-                                     const std::string                &what,
-                                     const Expression::Variables       variables)
-    : components{{Expression(texts[0], what + ", component x", variables),
-                  Expression(texts[1], what + ", component y", variables),
-                  Expression(texts[2], what + ", component z", variables)}}
+                                     const std::string                &what)
+    : components{{Expression(texts[0], what + ", component x"),
+                  Expression(texts[1], what + ", component y"),
+                  Expression(texts[2], what + ", component z")}}
   {
   }
 
@@ -262,26 +257,62 @@ namespace tetradapt::core
     return value;
   }
 
-  Tensor<1, 3>
-  VectorExpression::operator()(const Point<3> &point, const Tensor<1, 3> &normal) const
-  {
-    Tensor<1, 3> value;
-    for (unsigned int c = 0; c < 3; ++c)
-      value[c] = components[c](point, normal);
-    return value;
-  }
-
-  bool
-  VectorExpression::uses_normal() const
-  {
-    return components[0].uses_normal() || components[1].uses_normal()
-           || components[2].uses_normal();
-  }
-
   bool
   VectorExpression::is_constant() const
   {
     return components[0].is_constant() && components[1].is_constant()
            && components[2].is_constant();
+  }
+
+  struct SurfaceExpression::Implementation
+  {
+    std::array<Parsed, 3> components;
+  };
+
+  SurfaceExpression::SurfaceExpression(const std::array<std::string, 3> &texts,
+                                       const std::string                &what)
+    : implementation(new Implementation{{{Parsed(texts[0], what + ", component x", true),
+                                          Parsed(texts[1], what + ", component y", true),
+                                          Parsed(texts[2], what + ", component z", true)}}})
+  {
+  }
+
+  SurfaceExpression::SurfaceExpression(SurfaceExpression &&) noexcept = default;
+
+  SurfaceExpression::~SurfaceExpression() = default;
+
+  Tensor<1, 3>
+  SurfaceExpression::operator()(const Point<3> &point, const Tensor<1, 3> &normal) const
+  {
+    Tensor<1, 3> value;
+    for (unsigned int c = 0; c < 3; ++c)
+      {
+        Parsed &component   = implementation->components[c];
+        component.variables = {{point[0], point[1], point[2], 0., normal[0], normal[1], normal[2]}};
+        value[c]            = component.evaluate();
+      }
+    return value;
+  }
+
+  void
+  SurfaceExpression::check(const std::string &text, const std::string &what)
+  {
+    Parsed parsed(text, what, true);
+    if (parsed.constant)
+      parsed.evaluate();
+  }
+
+  bool
+  SurfaceExpression::is_constant() const
+  {
+    const auto &c = implementation->components;
+    return c[0].constant && c[1].constant && c[2].constant;
+  }
+
+  bool
+  SurfaceExpression::uses_normal() const
+  {
+    const auto &c = implementation->components;
+    return c[0].normal || c[1].normal || c[2].normal;
   }
 } // namespace tetradapt::core

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/estimate/equilibrated_loads.h"
 
-#include "tetradapt/core/expression.h"
+#include "tetradapt/core/surface_expression.h"
 #include "tetradapt/estimate/equilibrated_projection.h"
-#include "tetradapt/mesh/surface_point.h"
+#include "tetradapt/mesh/true_surface.h"
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -19,8 +19,8 @@ namespace tetradapt::estimate
     /** A traction or a pressure. */
     struct FaceForce
     {
-      core::VectorExpression value;
-      bool                   pressure;
+      core::SurfaceExpression value;
+      bool                    pressure;
     };
 
     /** The rule by which mechanics::nodal_forces() integrates over faces. */
@@ -48,6 +48,7 @@ namespace tetradapt::estimate
     void
     integrate(const FaceRule                       &rule,
               const mesh::TetMesh                  &mesh,
+              const mesh::TrueSurface              &surface,
               const unsigned int                    f,
               const std::vector<const FaceForce *> &forces,
               FaceLoad                             &load)
@@ -64,9 +65,9 @@ namespace tetradapt::estimate
             x += rule.points[q][i] * Tensor<1, 3>(mesh.points[face.vertices[i]]);
           for (const FaceForce *force : forces)
             {
-              const Tensor<1, 3> given = force->value.uses_normal()
-                                           ? force->value(x, mesh::surface_point(mesh, f, x).normal)
-                                           : force->value(x);
+              const Tensor<1, 3> normal
+                = force->value.uses_normal() ? surface.at(f, x).normal : Tensor<1, 3>();
+              const Tensor<1, 3> given = force->value(x, normal);
               traction[q] += force->pressure ? -given[0] / size * area : given;
             }
           for (unsigned int c = 0; c < 3; ++c)
@@ -108,10 +109,7 @@ namespace tetradapt::estimate
             = pressure ? std::array<std::string, 3>{{load.value[0], "0", "0"}} : load.value;
           tractions.emplace(
             "Loads/" + load.name,
-            FaceForce{core::VectorExpression(texts,
-                                             "Loads/" + load.name + "/Value",
-                                             core::Expression::Variables::point_and_normal),
-                      pressure});
+            FaceForce{core::SurfaceExpression(texts, "Loads/" + load.name + "/Value"), pressure});
         }
     std::vector<unsigned char>                  held(mesh.patches.size(), 0);
     std::vector<std::vector<const FaceForce *>> forces(mesh.patches.size());
@@ -125,14 +123,18 @@ namespace tetradapt::estimate
           if (traction != tractions.end())
             forces[patch].push_back(&traction->second);
         }
-    const FaceRule        rule;
-    std::vector<FaceLoad> loads(mesh.faces.size());
+    const bool uses_normal = std::any_of(tractions.begin(), tractions.end(), [](const auto &entry) {
+      return entry.second.value.uses_normal();
+    });
+    const mesh::TrueSurface surface(uses_normal ? scene.mesh : scene::MeshParameters(), mesh);
+    const FaceRule          rule;
+    std::vector<FaceLoad>   loads(mesh.faces.size());
     for (unsigned int f = 0; f < mesh.faces.size(); ++f)
       {
         const unsigned int patch = mesh.faces[f].patch;
         loads[f].held            = held[patch];
         if (!forces[patch].empty() && held[patch] != 7)
-          integrate(rule, mesh, f, forces[patch], loads[f]);
+          integrate(rule, mesh, surface, f, forces[patch], loads[f]);
       }
     return loads;
   }

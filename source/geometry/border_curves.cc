@@ -241,13 +241,19 @@ namespace tetradapt::geometry
     return result;
   }
 
-  double
-  PartOfSurface::distance(const OutlineSide &side, const Point<3> &point) const
+  Point<3>
+  PartOfSurface::foot(const OutlineSide &side, const Point<3> &point) const
   {
     const Point<3>    &a    = surface.points[side.first];
     const Tensor<1, 3> edge = surface.points[side.second] - a;
-    const double       t    = std::min(1., std::max(0., ((point - a) * edge) / edge.norm_square()));
-    return point.distance(a + t * edge);
+    const double       t    = ((point - a) * edge) / edge.norm_square();
+    return t <= 0. ? a : t >= 1. ? surface.points[side.second] : a + t * edge;
+  }
+
+  double
+  PartOfSurface::distance(const OutlineSide &side, const Point<3> &point) const
+  {
+    return point.distance(foot(side, point));
   }
 
   bool

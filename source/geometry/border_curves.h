@@ -56,6 +56,9 @@ namespace tetradapt::geometry
      * than @p tolerance from its outline. */
     bool
     contains(const Point<3> &point, double tolerance) const;
+    /** The point of the outline's side @p side that is nearest to @p point. */
+    Point<3>
+    foot(const OutlineSide &side, const Point<3> &point) const;
     /** Distance of @p point from the outline's side @p side. */
     double
     distance(const OutlineSide &side, const Point<3> &point) const;

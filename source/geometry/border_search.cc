@@ -130,6 +130,16 @@ namespace tetradapt::geometry
     return point + (2. * change_of(holds) - 1.) * across;
   }
 
+  Point<3>
+  BorderSearch::inside(const Track    &track,
+                       const Point<3> &a,
+                       const Point<3> &b,
+                       const double    t) const
+  {
+    const Point<3> point = beside(track, a, b, t);
+    return track.straight || track.part.contains(point, scale.snap) ? point : along(a, b, t);
+  }
+
   std::vector<double>
   BorderSearch::breaks(const Track &track, const Point<3> &a, const Point<3> &b) const
   {
@@ -187,14 +197,12 @@ namespace tetradapt::geometry
         for (std::size_t k = 1; k < t.size(); ++k)
           {
             const bool     last = k + 1 == t.size();
-            const Point<3> to   = last ? b : beside(track, a, b, t[k]);
+            const Point<3> to   = last ? b : inside(track, a, b, t[k]);
             // What is as short as this cannot be told from its ends.
             if (from.distance(to) <= 2. * scale.snap)
               {
                 if (last && open)
                   runs.back().points.back() = to;
-                if (!open)
-                  from = to;
                 continue;
               }
             if (!is_border(track, from, to))
@@ -241,7 +249,7 @@ namespace tetradapt::geometry
                            const unsigned int     depth,
                            std::vector<Point<3>> &result) const
   {
-    const Point<3> middle = beside(track, a, b, .5);
+    const Point<3> middle = inside(track, a, b, .5);
     if (depth < most_halvings && middle.distance(along(a, b, .5)) > allowed_sagitta(track, a, b))
       {
         add_halves(track, a, middle, depth + 1, result);

@@ -42,6 +42,10 @@ namespace tetradapt::geometry
     Point<3>
     beside(const Track &track, const Point<3> &a, const Point<3> &b, double t) const;
 
+    /** The same, but the point of the chord where the border bulges out of the part. */
+    Point<3>
+    inside(const Track &track, const Point<3> &a, const Point<3> &b, double t) const;
+
     /** Where other leaves change along a chord, with 0 and 1. */
     std::vector<double>
     breaks(const Track &track, const Point<3> &a, const Point<3> &b) const;

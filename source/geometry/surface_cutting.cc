@@ -91,24 +91,34 @@ namespace tetradapt::geometry
         result.origin.push_back(origin);
       }
 
-      /** The number of a point in a part, which becomes one of the outline if it lies there. */
+      /** The number of a point in a part, which is moved onto the outline if it is near, and
+       * then becomes one of it. */
       unsigned int
-      number(const PartOfSurface &part, const unsigned int cut, const Point<3> &point)
+      number(const PartOfSurface &part, const unsigned int cut, const Point<3> &near)
       {
         if (points.points().empty())
           for (const Point<3> &old : surface.points)
             points.add(old);
+        Point<3>           point    = near;
+        const OutlineSide *on       = nullptr;
+        double             distance = scale.snap;
+        for (const OutlineSide &side : part.outline())
+          if (const Point<3> foot = part.foot(side, near); foot.distance(near) <= distance)
+            {
+              distance = foot.distance(near);
+              point    = foot;
+              on       = &side;
+            }
         const unsigned int n_before = points.points().size();
-        unsigned int       number   = points.number(point);
+        const unsigned int number   = points.number(point);
         if (number < surface.points.size())
           return number;
-        for (const OutlineSide &side : part.outline())
-          if (part.distance(side, point) <= scale.snap)
-            {
-              auto &on_edge = edge_cuts[{side.first, side.second}];
-              if (std::find(on_edge.begin(), on_edge.end(), number) == on_edge.end())
-                on_edge.push_back(number);
-            }
+        if (on != nullptr)
+          {
+            auto &on_edge = edge_cuts[{on->first, on->second}];
+            if (std::find(on_edge.begin(), on_edge.end(), number) == on_edge.end())
+              on_edge.push_back(number);
+          }
         if (number == n_before)
           cut_of_point.push_back(cut);
         return number;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/mechanics/held_loads.h"
 
-#include "tetradapt/core/expression.h"
+#include "tetradapt/core/surface_expression.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,8 +24,9 @@ namespace tetradapt::mechanics
       Components components = 0;
       for (unsigned int c = 0; c < 3; ++c)
         {
-          const core::Expression value(load.value[c], "Loads/" + load.name + "/Value");
-          if (!value.is_constant() || value(core::Point<3>()) != 0.)
+          const core::SurfaceExpression value({{load.value[c], "0", "0"}},
+                                              "Loads/" + load.name + "/Value");
+          if (!value.is_constant() || value(core::Point<3>(), core::Tensor<1, 3>())[0] != 0.)
             components |= 1u << c;
         }
       return components;

@@ -2,8 +2,9 @@
 #include "tetradapt/mechanics/loads.h"
 
 #include "tetradapt/core/exceptions.h"
+#include "tetradapt/core/surface_expression.h"
 #include "tetradapt/mechanics/supports.h"
-#include "tetradapt/mesh/surface_point.h"
+#include "tetradapt/mesh/true_surface.h"
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -53,6 +54,7 @@ namespace tetradapt::mechanics
 
     void
     add_face_load(const scene::LoadParameters                    &load,
+                  const scene::MeshParameters                    &mesh_parameters,
                   const mesh::TetMesh                            &mesh,
                   const FaceShapes                               &shapes,
                   const std::vector<std::array<unsigned int, 6>> &face_nodes,
@@ -62,10 +64,10 @@ namespace tetradapt::mechanics
       const bool        pressure = load.type == scene::LoadType::pressure;
       const auto        texts
         = pressure ? std::array<std::string, 3>{{load.value[0], "0", "0"}} : load.value;
-      const core::VectorExpression value(texts,
-                                         what,
-                                         core::Expression::Variables::point_and_normal);
-      const bool                   uses_normal = value.uses_normal();
+      const core::SurfaceExpression value(texts, what);
+      const bool                    uses_normal = value.uses_normal();
+      const mesh::TrueSurface       surface(uses_normal ? mesh_parameters : scene::MeshParameters(),
+                                      mesh);
       for (unsigned int f = 0; f < mesh.faces.size(); ++f)
         {
           if (!carries(mesh, mesh.faces[f], load))
@@ -80,7 +82,7 @@ namespace tetradapt::mechanics
               // The rule's weights sum to 1/2, the area of the unit triangle.
               const double       weight = 2. * shapes.quadrature.weight(q);
               const Tensor<1, 3> given
-                = uses_normal ? value(x, mesh::surface_point(mesh, f, x).normal) : value(x);
+                = value(x, uses_normal ? surface.at(f, x).normal : Tensor<1, 3>());
               const Tensor<1, 3> force
                 = weight * (pressure ? -given[0] * area : area.norm() * given);
               for (unsigned int i = 0; i < shapes.n_nodes; ++i)
@@ -211,7 +213,7 @@ namespace tetradapt::mechanics
         case scene::LoadType::pressure:
           if (face_nodes.empty())
             face_nodes = boundary_face_nodes(mesh, space.edge_table());
-          add_face_load(load, mesh, face_shapes, face_nodes, forces);
+          add_face_load(load, scene.mesh, mesh, face_shapes, face_nodes, forces);
           break;
         case scene::LoadType::nodal_force:
           add_node_load(load, mesh, forces);

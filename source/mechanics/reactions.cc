@@ -36,9 +36,11 @@ namespace tetradapt::mechanics
       SupportedCells(const DisplacementSpace      &space,
                      const MaterialMap            &materials,
                      const PrescribedDisplacement &prescribed,
-                     const mesh::NodalField       &displacement)
+                     const mesh::NodalField       &displacement,
+                     const bool                    with_layer_energy)
         : space(space), materials(materials), prescribed(prescribed), displacement(displacement),
-          points(stiffness_points(space.degree())), forces(space.n_owned_nodes())
+          with_layer_energy(with_layer_energy), points(stiffness_points(space.degree())),
+          forces(space.n_owned_nodes())
       {
         for (const unsigned int cell : space.touching_cells())
           if (is_supported(cell))
@@ -49,6 +51,7 @@ namespace tetradapt::mechanics
       const MaterialMap             &materials;
       const PrescribedDisplacement  &prescribed;
       const mesh::NodalField        &displacement;
+      bool                           with_layer_energy;
       std::vector<mesh::Barycentric> points;
       std::vector<Tensor<1, 3>>      forces; ///< of the stress, right at owned nodes that are held
       std::array<double, 3>          layer_energy{};
@@ -71,7 +74,7 @@ namespace tetradapt::mechanics
         const unsigned int           n_nodes          = space.n_nodes_per_cell();
         const auto                   lambda_gradients = mesh::barycentric_gradients(mesh, cell);
         const double                 weight = mesh::cell_volume(mesh, cell) / points.size();
-        const bool                   counts = is_owned(mesh.cells[cell][0]); // on one rank only
+        const bool                   counts = with_layer_energy && is_owned(mesh.cells[cell][0]);
         std::array<Tensor<1, 3>, 10> gradients;
         for (const mesh::Barycentric &point : points)
           {
@@ -158,9 +161,10 @@ namespace tetradapt::mechanics
                     const PrescribedDisplacement            &prescribed,
                     const std::vector<dealii::Tensor<1, 3>> &forces,
                     const mesh::NodalField                  &displacement,
-                    const unsigned int                       n_supports)
+                    const unsigned int                       n_supports,
+                    const bool                               with_layer_energy)
   {
-    const SupportedCells  cells(space, materials, prescribed, displacement);
+    const SupportedCells  cells(space, materials, prescribed, displacement, with_layer_energy);
     std::vector<HeldNode> held;
     std::copy_if(prescribed.held_nodes.begin(),
                  prescribed.held_nodes.end(),

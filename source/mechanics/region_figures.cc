@@ -15,21 +15,28 @@ namespace tetradapt::mechanics
     /** Values that are equal but for this are held for the same. */
     constexpr double alike = 1e-6;
 
-    /** Squares of the components of very small and very large stresses leave the range. */
+    /** The square of the von Mises stress. */
+    double
+    square_of_von_mises(const SymmetricTensor<2, 3> &s)
+    {
+      const double xy    = s[0][0] - s[1][1];
+      const double yz    = s[1][1] - s[2][2];
+      const double zx    = s[2][2] - s[0][0];
+      const double shear = s[0][1] * s[0][1] + s[1][2] * s[1][2] + s[0][2] * s[0][2];
+      return 0.5 * (xy * xy + yz * yz + zx * zx) + 3. * shear;
+    }
+
     double
     von_mises(const SymmetricTensor<2, 3> &stress)
     {
+      const double square = square_of_von_mises(stress);
+      if (square > 1e-200 && square < 1e200)
+        return std::sqrt(square);
+      // Squares of very small and very large stresses leave the range.
       double scale = 0.;
       for (unsigned int i = 0; i < 6; ++i)
         scale = std::max(scale, std::abs(stress.access_raw_entry(i)));
-      if (scale == 0.)
-        return 0.;
-      const SymmetricTensor<2, 3> s     = stress / scale;
-      const double                xy    = s[0][0] - s[1][1];
-      const double                yz    = s[1][1] - s[2][2];
-      const double                zx    = s[2][2] - s[0][0];
-      const double                shear = s[0][1] * s[0][1] + s[1][2] * s[1][2] + s[0][2] * s[0][2];
-      return scale * std::sqrt(0.5 * (xy * xy + yz * yz + zx * zx) + 3. * shear);
+      return scale == 0. ? 0. : scale * std::sqrt(square_of_von_mises(stress / scale));
     }
 
     /** Displacement gradients at the four corners of a cell of degree 2. */
@@ -55,6 +62,15 @@ namespace tetradapt::mechanics
       return result;
     }
 
+    bool
+    is_before(const Point<3> &a, const Point<3> &b)
+    {
+      for (unsigned int d = 0; d < 3; ++d)
+        if (a[d] != b[d])
+          return a[d] < b[d];
+      return false;
+    }
+
     /** Stresses of cells, thermal strain taken off. */
     class Stresses
     {
@@ -78,27 +94,33 @@ namespace tetradapt::mechanics
             return {
               von_mises(law->stress(thermal ? G - Tensor<2, 3>(mean_thermal_strain(cell)) : G)), 4};
           }
-        auto         gradients = corner_gradients(u, cell, directions);
-        double       most      = -1.;
-        unsigned int corner    = 0;
+        auto                  gradients = corner_gradients(u, cell, directions);
+        std::array<double, 4> values;
         for (unsigned int v = 0; v < 4; ++v)
           {
             if (thermal)
-              gradients[v] -= Tensor<2, 3>(
-                materials.thermal_strain(region, u.mesh().points[u.mesh().cells[cell][v]]));
+              gradients[v] -= Tensor<2, 3>(materials.thermal_strain(region, corner_of(cell, v)));
             // A pressure has no part in the deviator.
-            const double value
+            values[v]
               = von_mises(mixed ? form.stress(gradients[v], 0.) : law->stress(gradients[v]));
-            if (value > most)
-              {
-                most   = value;
-                corner = v;
-              }
           }
+        // Rounding must not choose among corners whose values are the same.
+        const double most   = *std::max_element(values.begin(), values.end());
+        unsigned int corner = 4;
+        for (unsigned int v = 0; v < 4; ++v)
+          if (values[v] >= (1. - alike) * most
+              && (corner == 4 || is_before(corner_of(cell, v), corner_of(cell, corner))))
+            corner = v;
         return {most, corner};
       }
 
     private:
+      const Point<3> &
+      corner_of(const unsigned int cell, const unsigned int i) const
+      {
+        return u.mesh().points[u.mesh().cells[cell][i]];
+      }
+
       void
       enter(const int number)
       {
@@ -167,15 +189,6 @@ namespace tetradapt::mechanics
       std::map<int, unsigned int>           numbers;
       std::map<int, unsigned int>::iterator last;
     };
-
-    bool
-    is_before(const Point<3> &a, const Point<3> &b)
-    {
-      for (unsigned int d = 0; d < 3; ++d)
-        if (a[d] != b[d])
-          return a[d] < b[d];
-      return false;
-    }
 
     /** A place among equals. */
     struct Candidate
@@ -261,8 +274,10 @@ namespace tetradapt::mechanics
       void
       measure(const MaterialMap &materials)
       {
-        Stresses stresses(u, materials);
+        Stresses           stresses(u, materials);
+        const unsigned int n_nodes = u.n_nodes_per_cell();
         stress.reserve(end - begin);
+        displacement_of_cell.reserve(end - begin);
         for (unsigned int cell = begin; cell < end; ++cell)
           {
             RegionFigures &figures = result[numbers(mesh.regions[cell])];
@@ -270,9 +285,11 @@ namespace tetradapt::mechanics
             figures.volume += mesh::cell_volume(mesh, cell);
             stress.push_back(stresses.largest(cell));
             figures.von_mises.value = std::max(figures.von_mises.value, stress.back().first);
-            for (unsigned int i = 0; i < u.n_nodes_per_cell(); ++i)
-              figures.displacement.value
-                = std::max(figures.displacement.value, displacement[u.node(cell, i)]);
+            double most             = 0.;
+            for (unsigned int i = 0; i < n_nodes; ++i)
+              most = std::max(most, displacement[u.node(cell, i)]);
+            displacement_of_cell.push_back(most);
+            figures.displacement.value = std::max(figures.displacement.value, most);
           }
         for (RegionFigures &figures : result)
           {
@@ -297,6 +314,8 @@ namespace tetradapt::mechanics
               stressed[number].offer(corner < 4 ? mesh.points[mesh.cells[cell][corner]]
                                                 : centroid(cell));
             const double least = (1. - alike) * figures.displacement.value;
+            if (!(displacement_of_cell[cell - begin] >= least))
+              continue;
             for (unsigned int i = 0; i < u.n_nodes_per_cell(); ++i)
               if (displacement[u.node(cell, i)] >= least)
                 displaced[number].offer(u.node_position(u.node(cell, i)));
@@ -324,8 +343,9 @@ namespace tetradapt::mechanics
       MPI_Comm                                     communicator;
       RegionNumbers                                numbers;
       unsigned int                                 begin = 0, end = 0;
-      std::vector<double>                          displacement; ///< lengths, one a node
-      std::vector<std::pair<double, unsigned int>> stress;       ///< of the rank's cells
+      std::vector<double>                          displacement;         ///< lengths, one a node
+      std::vector<double>                          displacement_of_cell; ///< largest, rank's cells
+      std::vector<std::pair<double, unsigned int>> stress;               ///< of the rank's cells
     };
   } // namespace
 

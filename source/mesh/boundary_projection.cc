@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/mesh/boundary_projection.h"
 
-#include "curved_faces.h"
+#include "curved_surface.h"
 #include "curved_volume.h"
 #include "selection_borders.h"
 
@@ -258,11 +258,6 @@ namespace tetradapt::mesh
       }
     MoveReport report = move_points(mesh, moves);
     report.n_held += n_lost;
-    std::vector<const CurvedSurface *> surface_of_face;
-    for (const BoundaryFace &face : mesh.faces)
-      surface_of_face.push_back(
-        surface_of[face.patch] == none ? nullptr : surfaces[surface_of[face.patch]].get());
-    mesh.curved_faces = curved_faces(mesh, surface_of_face);
     return report;
   }
 

@@ -112,9 +112,9 @@ namespace tetradapt::mesh
              const std::uint64_t                             most,
              const std::function<void(const std::string &)> &fail)
   {
-    const auto too_long = [&](const std::uint64_t bytes) {
-      fail("it holds " + std::to_string(bytes) + " bytes; " + std::to_string(most)
-           + " are the most that it can have by the sizes that the file states.");
+    const auto too_long = [&]() {
+      fail("it holds more than the " + std::to_string(most)
+           + " bytes that it can have by the sizes that the file states.");
     };
     const auto header = [&]() -> std::uint64_t {
       unsigned char bytes[8];
@@ -136,7 +136,7 @@ namespace tetradapt::mesh
         if (first > source.remaining())
           fail("the array is cut off: its header promises " + std::to_string(first) + " bytes.");
         if (first > most)
-          too_long(first);
+          too_long();
         data.resize(first);
         source.read(data.data(), first);
         return data;
@@ -160,7 +160,7 @@ namespace tetradapt::mesh
           fail("the array is cut off, or its header is damaged.");
         total += size;
         if (total > most)
-          too_long(total);
+          too_long();
       }
     data.resize(total);
     std::size_t place = 0;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "curved_surface.h"
 
+#include "tetradapt/geometry/surface_checks.h"
+#include "tetradapt/geometry/surface_io.h"
+
 namespace tetradapt::mesh
 {
   namespace
@@ -104,6 +107,25 @@ namespace tetradapt::mesh
     if (!found)
       return std::nullopt;
     return SurfacePoint{*found, plane_near(*found, length).normal};
+  }
+
+  std::vector<std::unique_ptr<CurvedSurface>>
+  curved_surfaces(const scene::MeshParameters &parameters)
+  {
+    using Projection = scene::MeshParameters::Projection;
+    std::vector<std::unique_ptr<CurvedSurface>> surfaces;
+    if (parameters.projection == Projection::surface)
+      {
+        const bool own  = parameters.projection_file.empty();
+        const auto file = own ? parameters.files.front() : parameters.projection_file;
+        surfaces.push_back(std::make_unique<TriangulatedSurface>(
+          geometry::check_surface(geometry::read_surface(file), file).mesh,
+          parameters.feature_angle));
+      }
+    else if (parameters.projection == Projection::expression)
+      for (unsigned int i = 0; i < parameters.projection_functions.size(); ++i)
+        surfaces.push_back(std::make_unique<ZeroSet>(parameters.projection_functions[i], i + 1));
+    return surfaces;
   }
 
   std::optional<Point<3>>

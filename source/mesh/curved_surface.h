@@ -4,7 +4,7 @@
 
 #include "tetradapt/core/expression.h"
 #include "tetradapt/geometry/nearest_surface.h"
-#include "tetradapt/mesh/surface_point.h"
+#include "tetradapt/mesh/true_surface.h"
 
 #include <functional>
 #include <optional>
@@ -48,13 +48,6 @@ namespace tetradapt::mesh
     virtual std::optional<SurfacePoint>
     foot(const Point<3> &point, double length) const;
 
-    /** Whether the normal changes in steps, from one triangle to the next. */
-    virtual bool
-    has_steps() const
-    {
-      return false;
-    }
-
     /** The nearest point on a sharp edge; none if there is none. */
     virtual std::optional<Point<3>>
     nearest_on_crease(const Point<3> &) const
@@ -81,11 +74,6 @@ namespace tetradapt::mesh
     plane_near(const Point<3> &point, double length) const override;
     std::optional<SurfacePoint>
     foot(const Point<3> &point, double length) const override;
-    bool
-    has_steps() const override
-    {
-      return true;
-    }
     std::optional<Point<3>>
     nearest_on_crease(const Point<3> &point) const override
     {
@@ -115,6 +103,11 @@ namespace tetradapt::mesh
     std::string      place;
     core::Expression function;
   };
+
+  /** The surfaces that a scene projects the boundary on, none for Projection = none.
+   * @throws core::InputError if a surface cannot be read or a function does not parse. */
+  std::vector<std::unique_ptr<CurvedSurface>>
+  curved_surfaces(const scene::MeshParameters &parameters);
 
   /**
    * The point on all of @p surfaces, and in all of @p planes (each by a normal of length

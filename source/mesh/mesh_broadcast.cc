@@ -66,7 +66,6 @@ namespace tetradapt::mesh
     core::broadcast(mesh.cells, communicator);
     core::broadcast(mesh.regions, communicator);
     core::broadcast(mesh.faces, communicator);
-    core::broadcast(mesh.curved_faces, communicator);
     const std::string names = names_to_text(mesh);
     std::vector<char> text(names.begin(), names.end());
     core::broadcast(text, communicator);

@@ -16,7 +16,8 @@ namespace tetradapt::report
     using adapt::ErrorSource;
     using adapt::StopReason;
 
-    constexpr unsigned int width = 80;
+    /** Of a line, and where its text begins behind the label. */
+    constexpr unsigned int width = 80, text_column = 27;
 
     /** As many supports, loads, regions or goals are listed; the files have the rest. */
     constexpr std::size_t longest_list = 6;
@@ -31,7 +32,7 @@ namespace tetradapt::report
     std::string
     entry(const std::string &label, const std::string &text)
     {
-      return wrapped("  " + padded(label, 24) + " " + text, width, 27);
+      return wrapped("  " + padded(label, text_column - 3) + " " + text, width, text_column);
     }
 
     std::string
@@ -83,9 +84,16 @@ namespace tetradapt::report
     {
       std::string text;
       for (std::size_t i = 0; i < std::min(list.size(), longest_list); ++i)
-        text += entry(label + " " + list[i].name,
-                      "force " + short_vector(list[i].resultant.force, noise.force) + ", moment "
-                        + short_vector(list[i].resultant.moment, noise.moment));
+        {
+          const std::string force = "force " + short_vector(list[i].resultant.force, noise.force);
+          const std::string moment
+            = "moment " + short_vector(list[i].resultant.moment, noise.moment);
+          const std::string name = label + " " + list[i].name;
+          // A vector is not broken where it can be helped.
+          text += force.size() + moment.size() + 2 <= width - text_column
+                    ? entry(name, force + ", " + moment)
+                    : entry(name, force + ",") + entry("", moment);
+        }
       return text + rest_of(list.size(), label + "s", "reactions.csv");
     }
 

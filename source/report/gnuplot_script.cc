@@ -187,13 +187,16 @@ namespace tetradapt::report
   std::string
   gnuplot_text(const std::string &text)
   {
-    std::string quoted = "'";
+    // Not between apostrophes: gnuplot 5.4 takes two of them in a row for the end.
+    std::string quoted = "\"";
     for (const char c : text)
-      if (c == '\'')
-        quoted += "''";
+      if (c == '"' || c == '\\')
+        quoted += std::string("\\") + c;
+      else if (c == '`') // what stands between two is run as a command
+        quoted += "\\140";
       else
         quoted += static_cast<unsigned char>(c) < 32 || c == 127 ? ' ' : c;
-    return quoted + "'";
+    return quoted + "\"";
   }
 
   std::string

@@ -192,9 +192,12 @@ namespace tetradapt::report
     results.insert(results.end(), more.begin(), more.end());
     if (results.empty() || folder == nullptr)
       return;
-    table += (table.empty() ? "" : "\n") + text_regions(last->regions);
+    const auto append = [&](const std::string &text) {
+      table += (table.empty() || text.empty() ? "" : "\n") + text;
+    };
+    append(text_regions(last->regions));
     if (last->equilibrium)
-      table += '\n' + text_reactions(*last->equilibrium);
+      append(text_reactions(*last->equilibrium));
     folder->write("results.csv", csv_results(results));
     folder->write("results.txt", table);
   }

@@ -3,6 +3,7 @@
 
 #include "values.h"
 
+#include "tetradapt/core/expression.h"
 #include "tetradapt/core/expression_tokens.h"
 
 #include <algorithm>
@@ -24,18 +25,21 @@ namespace tetradapt::scene
     }
   } // namespace
 
-  bool
-  constant_value(const std::string                &text,
-                 const std::string                &what,
-                 double                           &value,
-                 const core::Expression::Variables variables)
+  void
+  require_no_time(const std::string &text, const std::string &what)
   {
-    const core::Expression expression(text, what, variables);
     require(!names_time(text),
             what,
             "'" + text
               + "' depends on the time t, but the scene is static. Write a number in the place of "
                 "t.");
+  }
+
+  bool
+  constant_value(const std::string &text, const std::string &what, double &value)
+  {
+    const core::Expression expression(text, what);
+    require_no_time(text, what);
     if (!expression.is_constant())
       return false;
     value = expression(core::Point<3>());
@@ -43,12 +47,10 @@ namespace tetradapt::scene
   }
 
   void
-  check_expression(const std::string                &text,
-                   const std::string                &what,
-                   const core::Expression::Variables variables)
+  check_expression(const std::string &text, const std::string &what)
   {
     double value;
-    constant_value(text, what, value, variables);
+    constant_value(text, what, value);
   }
 
   void

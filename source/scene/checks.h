@@ -3,7 +3,6 @@
 #define tetradapt_scene_checks_h
 
 #include "tetradapt/core/exceptions.h"
-#include "tetradapt/core/expression.h"
 #include "tetradapt/scene/mistakes.h"
 
 #include <string>
@@ -21,21 +20,20 @@ namespace tetradapt::scene
       throw core::InputError(path + ": " + text);
   }
 
+  /** @throws InputError if the expression @p text depends on t. */
+  void
+  require_no_time(const std::string &text, const std::string &what);
+
   /** Whether @p text is an expression without variables; @p value gets its value.
    * @throws InputError if it is no expression, depends on t, or is constant but not
    * finite. */
   bool
-  constant_value(const std::string          &text,
-                 const std::string          &what,
-                 double                     &value,
-                 core::Expression::Variables variables = core::Expression::Variables::point);
+  constant_value(const std::string &text, const std::string &what, double &value);
 
   /** @throws InputError if @p text is no expression, depends on t, or is constant but not
    * finite. */
   void
-  check_expression(const std::string          &text,
-                   const std::string          &what,
-                   core::Expression::Variables variables = core::Expression::Variables::point);
+  check_expression(const std::string &text, const std::string &what);
 
   /** An edge length given as an expression; a constant must be positive. */
   void

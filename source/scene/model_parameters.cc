@@ -5,6 +5,8 @@
 #include "checks.h"
 #include "face_choice.h"
 
+#include "tetradapt/core/surface_expression.h"
+
 #include <algorithm>
 
 namespace tetradapt::scene
@@ -264,11 +266,13 @@ namespace tetradapt::scene
     const bool has_normal = type == LoadType::traction || type == LoadType::pressure;
     for (unsigned int c = 0; c < (is_scalar(type) ? 1u : 3u); ++c)
       mistakes.attempt([&]() {
-        check_expression(value[c],
-                         path + "/Value"
-                           + (is_scalar(type) ? "" : std::string(", component ") + "xyz"[c]),
-                         has_normal ? core::Expression::Variables::point_and_normal
-                                    : core::Expression::Variables::point);
+        const std::string what
+          = path + "/Value" + (is_scalar(type) ? "" : std::string(", component ") + "xyz"[c]);
+        require_no_time(value[c], what);
+        if (has_normal)
+          core::SurfaceExpression::check(value[c], what);
+        else
+          check_expression(value[c], what);
       });
     mistakes.throw_together();
   }

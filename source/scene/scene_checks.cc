@@ -4,7 +4,7 @@
 #include "checks.h"
 #include "values.h"
 
-#include "tetradapt/core/expression.h"
+#include "tetradapt/core/surface_expression.h"
 #include "tetradapt/scene/words.h"
 
 #include <algorithm>
@@ -34,13 +34,10 @@ namespace tetradapt::scene
   bool
   all_zero(const std::array<std::string, 3> &expressions)
   {
-    for (const auto &text : expressions)
-      {
-        double value;
-        if (!constant_value(text, "value", value) || value != 0.)
-          return false;
-      }
-    return true;
+    // Those of loads may name the normal.
+    const core::SurfaceExpression value(expressions, "value");
+    return value.is_constant()
+           && value(core::Point<3>(), core::Tensor<1, 3>()) == core::Tensor<1, 3>();
   }
 
   bool

@@ -20,8 +20,17 @@ namespace tetradapt::solve
     /** More than this of all forces leaves reactions of less than four digits. */
     constexpr double largest_imbalance = 1e-4;
 
-    /** What rounding leaves, also of a factorisation. */
-    constexpr double rounding = 1e-10;
+    /** What rounding leaves, also of a factorisation, in bodies of very different stiffness or
+     * far from the origin. */
+    constexpr double rounding = 1e-8;
+
+    /** Whether the solver may have ended before its tolerance, by the error of the solution. */
+    bool
+    is_unfinished(const LoadedSystem &system, const StaticSolution &solution)
+    {
+      return system.scene.solver.stopping == scene::SolverParameters::Stopping::discretisation
+             || solution.iterations < solution.iterations_to_tolerance;
+    }
 
     /** Sum of forces on the nodes, and of their lengths. */
     struct NodalSum
@@ -102,7 +111,7 @@ namespace tetradapt::solve
       result.allowed_imbalance
         = std::max(tolerance * std::max(1., solution.load_magnitude / result.force_scale),
                    left / result.force_scale);
-      if (solution.iterations >= solution.iterations_to_tolerance)
+      if (!is_unfinished(system, solution))
         result.allowed_imbalance = std::min(result.allowed_imbalance, largest_imbalance);
     }
   } // namespace
@@ -118,7 +127,8 @@ namespace tetradapt::solve
                                      system.prescribed,
                                      system.forces,
                                      *solution.displacement,
-                                     system.scene.supports.size());
+                                     system.scene.supports.size(),
+                                     is_unfinished(system, solution));
     Equilibrium    result;
     const NodalSum loads = sum_of(system, *solution.displacement);
     list_forces(system, reactions, regions, result);

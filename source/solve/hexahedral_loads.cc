@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/solve/hexahedral_loads.h"
 
+#include "tetradapt/core/surface_expression.h"
 #include "tetradapt/mesh/hexahedral_field.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -73,10 +74,8 @@ namespace tetradapt::solve
       const bool pressure = load.type == scene::LoadType::pressure;
       const auto texts
         = pressure ? std::array<std::string, 3>{{load.value[0], "0", "0"}} : load.value;
-      const core::VectorExpression value(texts,
-                                         "Loads/" + load.name + "/Value",
-                                         core::Expression::Variables::point_and_normal);
-      const Line                   line(space.degree);
+      const core::SurfaceExpression value(texts, "Loads/" + load.name + "/Value");
+      const Line                    line(space.degree);
       for_selected_sides(forest, "Loads/" + load.name, [&](unsigned int c, unsigned int side) {
         const HexahedralCell     &cell = forest.cells()[c];
         const unsigned int        axis = side / 2, first = (axis + 1) % 3, second = (axis + 2) % 3;

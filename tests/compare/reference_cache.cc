@@ -158,7 +158,7 @@ namespace
       for (const unsigned int v : face.vertices)
         good = good && v < mesh.n_points() && face.patch < mesh.patches.size();
     for (const auto &value : reference.values)
-      good = good && std::isfinite(value.norm());
+      good = good && std::isfinite(value[0]) && std::isfinite(value[1]) && std::isfinite(value[2]);
     if (!good || !reference.hexahedra.empty())
       return good; // its constructor checks the rest
     const mesh::NodalField field(std::make_shared<mesh::TetMesh>(mesh), reference.degree);
@@ -197,6 +197,7 @@ namespace
               }
           }
         bad = sealed(bad);
+        std::filesystem::remove(file); // writing over a file waits for the disk
         std::ofstream(file, std::ios::binary) << bad;
         const CacheResult result = read_reference_cache(file, key);
         n_taken += result.reference != nullptr;

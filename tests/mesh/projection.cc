@@ -57,14 +57,15 @@ namespace
   {
     TetMesh mesh = mesh::read_volume_mesh(SOURCE_DIR "/../../meshes/sphere_octant.msh");
     projection.assign(mesh);
-    std::cout << "volume of the body from its first mesh: error below 1e-6 "
-              << (std::abs(projection.body_volume(mesh) / true_volume - 1.) < 1e-6 ? "yes" : "NO")
-              << '\n';
     std::cout << "patches:";
     for (const auto &patch : mesh.patches)
       std::cout << " [" << mesh::describe(patch) << "]";
     std::cout << "\nfirst mesh: moved " << projection.project(mesh).n_moved << ", volume error "
               << 1. - mesh::total_volume(mesh) / true_volume << "\n";
+    const auto body_is_within = [&](const double error) {
+      return std::abs(projection.body_volume(mesh) / true_volume - 1.) < error ? "yes" : "NO";
+    };
+    std::cout << "volume of the body from this mesh, to 1e-3: " << body_is_within(1e-3) << '\n';
     double before = 1. - mesh::total_volume(mesh) / true_volume;
     for (unsigned int i = 0; i < 4; ++i)
       {
@@ -72,6 +73,9 @@ namespace
         const mesh::MoveReport moves = projection.project(mesh);
         mesh::finalize(mesh, "the sphere");
         const double error = 1. - mesh::total_volume(mesh) / true_volume;
+        if (i < 2)
+          std::cout << "volume of the body, to " << (i == 0 ? "1e-4: " : "1e-6: ")
+                    << body_is_within(i == 0 ? 1e-4 : 1e-6) << '\n';
         std::cout
           << mesh.n_cells() << " cells: held " << moves.n_held << ", on the surfaces "
           << (largest_distance(mesh) < 1e-10 ? "yes" : "NO") << ", worst cell above 0.05 "

@@ -73,15 +73,15 @@ namespace
   void
   scripts()
   {
-    std::cout << report::gnuplot_text("it's 5 % of\n{x}_1^\"2\"") << '\n';
+    std::cout << report::gnuplot_text("it''s 5 % of\n{x}_1^\"2\" `id` \\") << '\n';
     report::LinePlot plot;
     plot.logarithmic_x = plot.logarithmic_y = true;
     plot.curves                             = {{"a", {{{1., 1.}}, {{2., 0.}}}, 0, 0, false},
                                                {"b", {{{-1., 1.}}, {{2., NAN}}, {{3., INFINITY}}}, 1, 0, false}};
     const std::string script                = report::gnuplot_script(plot);
     check("a curve without a point that can be shown is left out",
-          count(script, "EOD") == 2 && count(script, "title 'a'") == 1
-            && count(script, "title 'b'") == 0);
+          count(script, "EOD") == 2 && count(script, "title \"a\"") == 1
+            && count(script, "title \"b\"") == 0);
     check("one point has a range around it",
           count(script, "set xrange [0.90909091:1.1]") == 1
             && count(script, "set yrange [0.90909091:1.1]") == 1);
@@ -112,13 +112,13 @@ namespace
     const auto records                 = make_records();
     for (const auto &plot : report::plots_of_run(scene, records))
       std::cout << plot.name << ": " << count(plot.script, "<< EOD") << " data blocks, "
-                << count(plot.script, " title '") << " titles" << std::endl;
+                << count(plot.script, " title \"") << " titles" << std::endl;
     const auto        all  = report::plots_of_run(scene, records);
     const std::string dofs = all[0].script, seconds = all[1].script;
     check("the rejected cycle is not shown",
           count(dofs, "\n6400 ") == 0 && count(dofs, "51200 0.125"));
     check("its time counts", count(seconds, "\n4 0.125\n") == 1 && count(seconds, "\n3 ") == 0);
-    check("the slope of degree 1", count(dofs, "'N^{−1/3}'") == 1);
+    check("the slope of degree 1", count(dofs, "\"N^{−1/3}\"") == 1);
     const auto one = report::plots_of_run(scene, {records[0]});
     check("one cycle, no curves", one.size() == 1 && one[0].script.empty());
 
@@ -182,7 +182,7 @@ main()
   // The real one, where it is installed: names that could break a script or a picture.
   setenv("PATH", path.c_str(), 1);
   scene::Scene scene;
-  scene.title = "it's <5 %< & \"{x}_1\" \\ done";
+  scene.title = "it''s <5 %< `id` & \"{x}_1\" \\ done";
   core::Log    log;
   unsigned int n_warnings = 0;
   log.add_sink([&](const core::LogLevel level, const std::string &) {
@@ -200,7 +200,7 @@ main()
   for (const auto &plot : report::plots_of_run(scene, make_records()))
     {
       const std::string svg = content("plots_scratch/real/plots/" + plot.name + ".svg");
-      n_pictures += count(svg, "it's &lt;5 %&lt; &amp; \"{x}_1\" \\ done") == 1;
+      n_pictures += count(svg, "it''s &lt;5 %&lt; `id` &amp; \"{x}_1\" \\ done") == 1;
     }
   const bool installed = !report::find_gnuplot().empty();
   check("all pictures with gnuplot, none and one warning without",

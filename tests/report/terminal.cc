@@ -117,7 +117,7 @@ namespace
     const mesh::NodalField       field(mesh, 1);
     core::Log                    log;
     std::ostringstream           terminal;
-    report::ConvergenceTable     table("", &terminal, log);
+    report::ConvergenceTable     table(nullptr, &terminal, log);
     table.run_started(scene);
     for (unsigned int cycle = 0; cycle < 45; ++cycle)
       table.cycle_done({full_record(cycle), field, materials, nullptr, nullptr});

@@ -63,13 +63,13 @@ namespace
     auto &support              = scene.supports[0];
     support.selector           = {{7}, {"x-min"}, "x < 1 && y > 0"};
     support.components         = {{true, true, false}};
-    support.displacement       = {{"sin(t)", "if(x > 0, 1, 2)", "0"}};
+    support.displacement       = {{"sin(y)", "if(x > 0, 1, 2)", "0"}};
     scene.supports.push_back(
       {"other", {{}, {"y-max"}, ""}, {{false, true, true}}, {{"0", "0", "z"}}});
     scene.loads[0].type                   = LoadType::gravity;
     scene.loads[0].selector               = {{1}, {"a b"}, ""};
     material.density                      = 1000;
-    scene.loads[0].value                  = {{"0", "-9.81*t", "x"}};
+    scene.loads[0].value                  = {{"0", "-9.81*y", "x"}};
     scene.solver                          = {SolverParameters::Type::cg, 1e-12, 7, 8};
     scene.reference.type                  = ReferenceParameters::Type::fine_mesh;
     scene.reference.route                 = ReferenceParameters::MeshRoute::bricks;
@@ -110,7 +110,8 @@ main()
             << ", expression kept: " << scene.supports[0].displacement[1]
             << ", title kept: " << (scene.title == "Übung № 1") << '\n';
 
-  // All parameters; the blocks need names, and a body something that moves it.
+  // All parameters; the blocks need names, support and load faces, and a body something that moves
+  // it.
   std::ostringstream printed;
   print_parameters(printed, ParameterFormat::prm, {"linear elastic"});
   std::string text = printed.str();
@@ -121,6 +122,12 @@ main()
     {
       const auto end = text.find("\n", text.find("set " + name + " "));
       text.insert(end, name == "Values" ? " 1" : " Degree");
+    }
+  auto at = text.find("subsection Supports");
+  for (unsigned int block = 0; block < 2; ++block)
+    {
+      at = text.find("\n", text.find("set Where ", at));
+      text.insert(at, " everywhere");
     }
   write("printed.prm", text);
   const Scene all = check_round_trip("all parameters", "printed.prm");

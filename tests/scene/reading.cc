@@ -67,7 +67,7 @@ namespace
           "  subsection a\r\n"
           "    set Boundary ids = 3, -1\r\n"
           "    set Components = z, x\r\n"
-          "    set Displacement = 1e-3*t; 0; if(x>1, 2, 3)\r\n"
+          "    set Displacement = 1e-3*y; 0; if(x>1, 2, 3)\r\n"
           "  end\r\n"
           "end\r\n"
           "subsection Loads\r\n"

@@ -16,7 +16,7 @@ namespace
     write("beam.prm",
           "set Title = beam\n"
           "subsection Mesh\n  set Type = bricks\n  set Upper corner = 4, 1, 1\n"
-          "  set Cells = 8, 2, 2\nend\n"
+          "  set Cells = 8x2x2\nend\n"
           "subsection Materials\n  subsection steel\n    set Young modulus = 1000\n"
           "    set Density = 2\n  end\nend\n"
           "subsection Supports\n"

@@ -97,7 +97,8 @@ end
               "0\n  end\nend\n");
     fails("in a support",
           body
-            + "subsection Supports\n  subsection bottom\n    set Displacement = nx; 0; "
+            + "subsection Supports\n  subsection top\n    set Groups = z-max\n    set Displacement "
+              "= nx; 0; "
               "0\n  end\nend\n");
     fails("in a nodal force",
           body

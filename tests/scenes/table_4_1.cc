@@ -30,5 +30,5 @@ main()
   check("no effectivity, without an exact solution", std::isnan(table.value("effectivity", 0)));
   check("the reference against itself: nothing", table.value("mean_ren", 8) < 1e-9);
   check("a rough reference is called so", contains(result.err, "rough"));
-  check("no success where it meets itself", contains(result.err, "measured is the reference's"));
+  check("no success where it meets itself", contains(result.err, "measure the reference's error"));
 }

@@ -2,9 +2,9 @@
 #ifndef tetradapt_compare_given_loads_h
 #define tetradapt_compare_given_loads_h
 
-#include "tetradapt/core/expression.h"
+#include "tetradapt/core/surface_expression.h"
 #include "tetradapt/mechanics/material_map.h"
-#include "tetradapt/mesh/surface_point.h"
+#include "tetradapt/mesh/true_surface.h"
 
 namespace tetradapt::compare
 {
@@ -51,7 +51,7 @@ namespace tetradapt::compare
 
     /** Sum of the tractions and pressures on boundary face @p face, force per area, as they
      * load the discrete problem; zero on a free face. Valid for the known components.
-     * @param point on the face; nx, ny, nz are those of mesh::surface_point().
+     * @param point on the face; nx, ny, nz are those of the true surface over it.
      * @param normal of the face, outward, of length one, for pressures. */
     Tensor<1, 3>
     traction(unsigned int face, const Point<3> &point, const Tensor<1, 3> &normal) const;
@@ -59,6 +59,10 @@ namespace tetradapt::compare
     /** The same on the true surface of the body, at a point over boundary face @p face. */
     Tensor<1, 3>
     surface_traction(unsigned int face, const mesh::SurfacePoint &at) const;
+
+    /** The body's surface; made when it is first asked for. Not collective. */
+    const mesh::TrueSurface &
+    surface() const;
 
     /** Whether a body force or weight acts anywhere. */
     bool
@@ -75,22 +79,15 @@ namespace tetradapt::compare
     /** An expression, evaluated once where it is a constant. */
     struct Value
     {
-      Value(const std::array<std::string, 3> &texts,
-            const std::string                &what,
-            core::Expression::Variables       variables = core::Expression::Variables::point);
+      Value(const std::array<std::string, 3> &texts, const std::string &what);
       Tensor<1, 3>
-      operator()(const Point<3> &point) const
+      operator()(const Point<3> &point, const Tensor<1, 3> &normal = Tensor<1, 3>()) const
       {
-        return is_constant ? constant : expression(point);
+        return is_constant ? constant : expression(point, normal);
       }
-      Tensor<1, 3>
-      operator()(const mesh::SurfacePoint &at) const
-      {
-        return is_constant ? constant : expression(at.point, at.normal);
-      }
-      core::VectorExpression expression;
-      bool                   is_constant, uses_normal;
-      Tensor<1, 3>           constant;
+      core::SurfaceExpression expression;
+      bool                    is_constant, uses_normal;
+      Tensor<1, 3>            constant;
     };
     struct FaceLoad
     {
@@ -108,10 +105,12 @@ namespace tetradapt::compare
       std::map<int, double> factors; ///< per region: 1, or the density; others: none
     };
 
-    const mesh::TetMesh         &mesh;
-    std::vector<Value>           values;
-    std::vector<PatchConditions> patches; ///< as TetMesh::patches
-    std::vector<BodyForce>       body_forces;
+    const mesh::TetMesh                       &mesh;
+    scene::MeshParameters                      mesh_parameters; ///< for the surface
+    std::vector<Value>                         values;
+    std::vector<PatchConditions>               patches; ///< as TetMesh::patches
+    std::vector<BodyForce>                     body_forces;
+    mutable std::unique_ptr<mesh::TrueSurface> true_surface;
   };
 } // namespace tetradapt::compare
 

@@ -21,7 +21,7 @@ namespace tetradapt::compare
    * inner_weight: div sigma + f = 0, times the size of the patch.
    *
    * Where the boundary is projected on a surface, that is the body's: points and normals of
-   * sigma n = t are its own (mesh::surface_point()). Facets differ from it by angles of the order
+   * sigma n = t are its own (mesh::TrueSurface). Facets differ from it by angles of the order
    * of their size; with their normals, of which a patch has several, the condition would be
    * wrong by that times the stress along the wall.
    *

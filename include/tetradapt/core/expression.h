@@ -14,8 +14,7 @@ namespace tetradapt::core
   using dealii::Tensor;
 
   /**
-   * A scalar function of x, y, z and t, given as text and evaluated by muParser; that of a
-   * load on a surface may also use nx, ny, nz, the unit normal that points out of the body.
+   * A scalar function of x, y, z and t, given as text and evaluated by muParser.
    *
    * Known in addition to muParser's own functions: the constants `pi` (also `_pi`) and
    * `e` (also `_e`), `if(condition, a, b)`, and the operators `&&`, `||`, `!`.
@@ -25,13 +24,6 @@ namespace tetradapt::core
   class Expression
   {
   public:
-    /** The variables that a text may use. */
-    enum class Variables
-    {
-      point,            ///< x, y, z, t
-      point_and_normal, ///< also nx, ny, nz
-    };
-
     /**
      * Compiles @p text.
      * @param what names the place in messages, for example
@@ -39,9 +31,7 @@ namespace tetradapt::core
      * @throws InputError if the text is empty, does not parse or uses an
      *         unknown name; the message quotes the text and marks the position.
      */
-    Expression(const std::string &text,
-               const std::string &what,
-               Variables          variables = Variables::point);
+    Expression(const std::string &text, const std::string &what);
     Expression(const Expression &other);
     Expression(Expression &&other) noexcept;
     Expression &
@@ -58,19 +48,11 @@ namespace tetradapt::core
     double
     operator()(const Point<3> &point, double t = 0.) const;
 
-    /** The same on a surface with normal @p normal. */
-    double
-    operator()(const Point<3> &point, const Tensor<1, 3> &normal) const;
-
-    /** Whether the text names one of nx, ny, nz. */
-    bool
-    uses_normal() const;
-
     /** As operator(), but true for any value other than zero. */
     bool
     holds(const Point<3> &point, double t = 0.) const;
 
-    /** Whether the text names no variable. */
+    /** Whether the text names none of x, y, z, t. */
     bool
     is_constant() const;
 
@@ -78,9 +60,6 @@ namespace tetradapt::core
     text() const;
 
   private:
-    double
-    evaluate(const Point<3> &point) const;
-
     struct Implementation;
     std::unique_ptr<Implementation> implementation;
   };
@@ -90,21 +69,13 @@ namespace tetradapt::core
   {
   public:
     /** @throws InputError as Expression does; @p what names the place. */
-    VectorExpression(const std::array<std::string, 3> &texts,
-                     const std::string                &what,
-                     Expression::Variables             variables = Expression::Variables::point);
+    VectorExpression(const std::array<std::string, 3> &texts, const std::string &what);
 
     Tensor<1, 3>
     operator()(const Point<3> &point, double t = 0.) const;
 
-    Tensor<1, 3>
-    operator()(const Point<3> &point, const Tensor<1, 3> &normal) const;
-
     bool
     is_constant() const;
-
-    bool
-    uses_normal() const;
 
   private:
     std::array<Expression, 3> components;

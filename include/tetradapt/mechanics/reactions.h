@@ -20,7 +20,7 @@ namespace tetradapt::mechanics
      * a(v,v) for the three displacements v that are one in direction c where component c is
      * free and zero where it is prescribed. The forces that a solver leaves on the free
      * unknowns sum to (r, v), at most the energy norm of its error times the root of this: how
-     * far reactions can be from balancing the loads.
+     * far reactions can be from balancing the loads. Zero unless asked for.
      */
     std::array<double, 3> layer_energy{};
   };
@@ -37,6 +37,7 @@ namespace tetradapt::mechanics
    * has any.
    *
    * @param forces F, one a field node, complete on the nodes that this rank owns.
+   * @param with_layer_energy whether that is wanted.
    * Collective; the same on every rank.
    */
   Reactions
@@ -45,7 +46,8 @@ namespace tetradapt::mechanics
                     const PrescribedDisplacement            &prescribed,
                     const std::vector<dealii::Tensor<1, 3>> &forces,
                     const mesh::NodalField                  &displacement,
-                    unsigned int                             n_supports);
+                    unsigned int                             n_supports,
+                    bool                                     with_layer_energy);
 } // namespace tetradapt::mechanics
 
 #endif

@@ -50,7 +50,7 @@ namespace tetradapt::mesh
     void
     assign(TetMesh &mesh) const;
 
-    /** Moves the boundary's points to where they belong, and fills TetMesh::curved_faces. */
+    /** Moves the boundary's points to where they belong. */
     MoveReport
     project(TetMesh &mesh) const;
 

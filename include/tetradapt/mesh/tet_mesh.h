@@ -35,17 +35,6 @@ namespace tetradapt::mesh
   };
 
   /**
-   * The part of a body's true surface over a boundary face, as polynomials of degree 2: points and
-   * outward unit normals over the face's vertices and the middles of the edges from the first to
-   * the second vertex, and so on.
-   */
-  struct CurvedFace
-  {
-    std::array<Point<3>, 6>     points;
-    std::array<Tensor<1, 3>, 6> normals;
-  };
-
-  /**
    * A tetrahedral mesh as plain data: readers, TetGen, writers, locators and
    * estimators share it, and none of them needs a deal.II triangulation.
    *
@@ -62,9 +51,6 @@ namespace tetradapt::mesh
     std::vector<BoundaryFace>                faces;
     std::vector<Patch>                       patches;
     std::map<int, std::string>               region_names;
-    /** One a face where the boundary is projected onto a surface (BoundaryProjection), flat
-     * parts included; else none. See surface_point(). */
-    std::vector<CurvedFace> curved_faces;
 
     unsigned int
     n_points() const

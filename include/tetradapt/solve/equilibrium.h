@@ -39,9 +39,9 @@ namespace tetradapt::solve
     /** The larger of |force| / force_scale and |moment about the centre of the box| /
      * (force_scale lever) of the imbalance; 0 if no force acts. */
     double relative_imbalance = 0.;
-    /** What may be left of it: Solver/Tolerance, or the part that the solver's own error in the
-     * energy norm can have in it, see mechanics::Reactions::layer_energy. 1e-4 at most, unless
-     * the solver was told to stop at the error of the mesh. */
+    /** What may be left of it: Solver/Tolerance, but between 1e-8 and 1e-4; where the solver ends
+     * at the error of the mesh, also what its own error in the energy norm, as it estimates it,
+     * can have in it (see mechanics::Reactions::layer_energy). */
     double allowed_imbalance = 0.;
 
     bool

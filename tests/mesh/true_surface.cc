@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// The true surface over the faces of a projected boundary: its points and normals on an ellipsoid
-// converge with the third power of the edge length, on a triangulated sphere they are as
-// good as its triangles; without a projection they are the face's own.
+// The true surface over the faces of a projected boundary: on an ellipsoid its points and
+// normals are exact however coarse the faces, on a triangulated sphere they are as good as its
+// triangles; without a projection and on flat parts they are the face's own.
 
-#include "tetradapt/mesh/surface_point.h"
-#include "tetradapt/core/exceptions.h"
+#include "tetradapt/mesh/true_surface.h"
 #include "tetradapt/geometry/surface_io.h"
 #include "tetradapt/mesh/boundary_projection.h"
 #include "tetradapt/mesh/red_refinement.h"
@@ -35,7 +34,9 @@ namespace
 
   /** Largest errors over the faces on the walls x^2/a^2 + ... = 1 and 4, at points inside. */
   Errors
-  errors_of(const TetMesh &mesh, const std::array<double, 3> &axes)
+  errors_of(const TetMesh               &mesh,
+            const mesh::TrueSurface     &surface,
+            const std::array<double, 3> &axes)
   {
     Errors largest;
     for (unsigned int f = 0; f < mesh.faces.size(); ++f)
@@ -48,7 +49,7 @@ namespace
                     : i == q ? 0.6
                              : 0.2)
                    * Tensor<1, 3>(mesh.points[mesh.faces[f].vertices[i]]);
-            const auto   at    = mesh::surface_point(mesh, f, Point<3>(x));
+            const auto   at    = surface.at(f, Point<3>(x));
             double       level = 0.;
             Tensor<1, 3> normal;
             for (unsigned int d = 0; d < 3; ++d)
@@ -65,6 +66,18 @@ namespace
     return largest;
   }
 
+  /** How far the surface over a point of a face is from the face. */
+  double
+  difference_to_face(const TetMesh &mesh, const mesh::TrueSurface &surface, const unsigned int f)
+  {
+    const Tensor<1, 3> area = mesh::face_area_vector(mesh, mesh.faces[f]);
+    const Tensor<1, 3> x    = 0.2 * Tensor<1, 3>(mesh.points[mesh.faces[f].vertices[0]])
+                           + 0.3 * Tensor<1, 3>(mesh.points[mesh.faces[f].vertices[1]])
+                           + 0.5 * Tensor<1, 3>(mesh.points[mesh.faces[f].vertices[2]]);
+    const auto at = surface.at(f, Point<3>(x));
+    return std::max(at.point.distance(Point<3>(x)), (at.normal - area / area.norm()).norm());
+  }
+
   void
   ellipsoid()
   {
@@ -72,38 +85,41 @@ namespace
     parameters.projection = scene::MeshParameters::Projection::expression;
     parameters.projection_functions
       = {"(x/1.2)^2 + y^2 + (z/0.9)^2 - 1", "(x/1.2)^2 + y^2 + (z/0.9)^2 - 4"};
-    const mesh::BoundaryProjection projection(parameters);
+    scene::Scene scene;
+    scene.mesh = parameters;
+    const mesh::BoundaryProjection projection(scene);
     TetMesh mesh = mesh::read_volume_mesh(SOURCE_DIR "/../../meshes/ellipsoid_octant.msh");
-    check("no projection: no curved faces", !mesh::has_curved_faces(mesh));
     projection.assign(mesh);
     projection.project(mesh);
-    Errors before;
+    double before = 0.;
     for (unsigned int level = 0; level < 4; ++level)
       {
-        const Errors errors = errors_of(mesh, {{1.2, 1., 0.9}});
+        const mesh::TrueSurface surface(parameters, mesh);
+        const Errors            errors = errors_of(mesh, surface, {{1.2, 1., 0.9}});
+        check("ellipsoid: exact points and normals",
+              errors.distance < 1e-10 && errors.normal < 1e-7);
         if (level > 1)
-          std::cout << "ellipsoid, orders at least 2.5: "
-                    << (std::log2(before.distance / errors.distance) > 2.5) << ' '
-                    << (std::log2(before.normal / errors.normal) > 2.5) << ", normals of facets: "
-                    << std::lround(std::log2(before.facet / errors.facet)) << std::endl;
-        before = errors;
-        mesh   = mesh::red_refine(mesh, nullptr);
-        check("  a refined mesh has none before it is projected", !mesh::has_curved_faces(mesh));
+          std::cout << "  order of the faces' own normals: "
+                    << std::lround(std::log2(before / errors.facet)) << std::endl;
+        before       = errors.facet;
+        double flat  = 0.;
+        bool   right = true;
+        for (unsigned int f = 0; f < mesh.faces.size(); ++f)
+          {
+            const bool curved = mesh.patches[mesh.faces[f].patch].boundary_id <= 2;
+            right             = right && surface.is_projected(f) == curved;
+            if (!curved)
+              flat = std::max(flat, difference_to_face(mesh, surface, f));
+          }
+        check("  planes stay planes", right && flat == 0.);
+        mesh = mesh::red_refine(mesh, nullptr);
         projection.project(mesh);
       }
-    double flat = 0.;
+    const mesh::TrueSurface none(scene::MeshParameters(), mesh);
+    double                  largest = 0.;
     for (unsigned int f = 0; f < mesh.faces.size(); ++f)
-      if (mesh.patches[mesh.faces[f].patch].boundary_id > 2)
-        {
-          const auto         area = mesh::face_area_vector(mesh, mesh.faces[f]);
-          const Tensor<1, 3> x    = 0.2 * Tensor<1, 3>(mesh.points[mesh.faces[f].vertices[0]])
-                                 + 0.3 * Tensor<1, 3>(mesh.points[mesh.faces[f].vertices[1]])
-                                 + 0.5 * Tensor<1, 3>(mesh.points[mesh.faces[f].vertices[2]]);
-          const auto at = mesh::surface_point(mesh, f, Point<3>(x));
-          flat          = std::max(
-            {flat, at.point.distance(Point<3>(x)), (at.normal - area / area.norm()).norm()});
-        }
-    check("planes stay planes", flat < 1e-12);
+      largest = std::max(largest, difference_to_face(mesh, none, f));
+    check("no projection: the faces", largest == 0.);
   }
 
   /** A sphere of radius 1 as an octahedron whose triangles are cut into four @p n times. */
@@ -193,17 +209,20 @@ namespace
     parameters.projection_file = "sphere.off";
     parameters.source          = scene::MeshSource::file;
     write_off("sphere.off", sphere(3));
-    const mesh::BoundaryProjection projection(parameters);
+    scene::Scene scene;
+    scene.mesh = parameters;
+    const mesh::BoundaryProjection projection(scene);
     TetMesh                        mesh = ball(sphere(levels));
     projection.assign(mesh);
     projection.project(mesh);
-    double largest = 0.;
+    const mesh::TrueSurface surface(parameters, mesh);
+    double                  largest = 0.;
     for (unsigned int f = 0; f < mesh.faces.size(); ++f)
       {
         Tensor<1, 3> x;
         for (unsigned int i = 0; i < 3; ++i)
           x += Tensor<1, 3>(mesh.points[mesh.faces[f].vertices[i]]) / 3.;
-        const auto at = mesh::surface_point(mesh, f, Point<3>(x));
+        const auto at = surface.at(f, Point<3>(x));
         largest       = std::max(largest, (at.normal - Tensor<1, 3>(x) / x.norm()).norm());
       }
     std::cout << "triangulated sphere, " << what << ": normals within " << bound << ": "
