@@ -40,7 +40,7 @@ namespace tetradapt::geometry
   };
 
   /**
-   * Triangulates a surface anew where the borders of conditions run, so that each
+   * Triangulates a surface again where the borders of conditions run, so that each
    * triangle lies wholly where a condition holds or does not.
    *
    * Borders are looked for in each flat part (FlatParts) of the surface: of affine leaves
