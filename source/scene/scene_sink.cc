@@ -132,8 +132,8 @@ namespace tetradapt::scene
         const Place names            = places_of_values.at(start + "Parameters");
         if (!is_first)
           refuse(names,
-                 start + "Parameters: " + name + " is varied by Study/" + other->second
-                   + ", too. Remove one of the two.");
+                 start + "Parameters: " + name + " is also varied by Study/" + other->second
+                   + ". Remove one of the two.");
         if (std::count(path.begin(), path.end(), "") > 0)
           refuse(
             names,

@@ -99,7 +99,7 @@ namespace tetradapt::solve
     }
 
     /** Factorises the matrix with its diagonal scaled to ones, so that pivots tell how many
-     * digits are left whatever the units. False if it is not positive definite to rounding. */
+     * digits are left in any units. False if it is not positive definite to rounding. */
     bool
     factorise(const Triangle &triangle)
     {
