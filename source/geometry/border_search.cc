@@ -36,7 +36,7 @@ namespace tetradapt::geometry
 
     /**
      * Moves the inner points of a polyline whose points lie on a curve outward, so that the
-     * area cut off by the chords is that cut off by the curve: a chord of length c cuts off
+     * chords enclose the area that the curve encloses: a chord of length c cuts off
      * k c^3/12 for the curvature k, and moving its ends by k c^2/12 gives that back. Where
      * a curve touches the outline of its part, its points stay.
      */
