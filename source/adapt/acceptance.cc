@@ -12,6 +12,7 @@ namespace tetradapt::adapt
   {
     constexpr double rounding      = 1e-10; ///< of Pi, relative
     constexpr double concentration = 3.;    ///< see compare_energies()
+    constexpr double quadrature    = 1e-5;  ///< change of a load that quadrature may cause
 
     /** Whether a function is linear on all faces that carry a selection, as their corners
      * and their centroids tell. */
@@ -63,16 +64,31 @@ namespace tetradapt::adapt
     return "";
   }
 
+  bool
+  is_same_problem(const double change, const double swept)
+  {
+    return change <= concentration * swept + quadrature;
+  }
+
   EnergyTest
-  compare_energies(const CycleEnergy &before, const CycleEnergy &after, const double swept)
+  compare_energies(const CycleEnergy &before,
+                   const CycleEnergy &after,
+                   const double       swept,
+                   const double       change)
   {
     const double scale = std::max(std::abs(before.potential), std::abs(after.potential));
     EnergyTest   test;
     test.change    = after.potential - before.potential;
-    test.allowance = (rounding + concentration * swept) * scale
+    test.allowance = (rounding + concentration * swept + 2. * change) * scale
                      + 0.5
                          * (before.algebraic_error * before.algebraic_error
                             + after.algebraic_error * after.algebraic_error);
     return test;
+  }
+
+  bool
+  is_worse_estimate(const double before, const double after)
+  {
+    return after > 1.1 * before;
   }
 } // namespace tetradapt::adapt

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/adapt/cycle_estimates.h"
 
+#include "tetradapt/compare/stress_difference.h"
 #include "tetradapt/estimate/goal_functional.h"
+#include "tetradapt/estimate/load_oscillations.h"
 
 #include <algorithm>
 #include <chrono>
@@ -61,6 +63,35 @@ namespace tetradapt::adapt
       if (record.energy_error && record.relative_energy_error.value_or(0.) > 0.)
         norm.value = *record.energy_error / *record.relative_energy_error;
       return norm;
+    }
+
+    /** Adds to the refinement indicator what it does not see of the loads. An indicator that is
+     * no energy norm is scaled as if its norm were the estimated energy error, or a tenth of the
+     * solution's norm where there is none. */
+    void
+    add_oscillations(const ErrorSources              &sources,
+                     const SolvedCycle               &cycle,
+                     const estimate::EstimatorTraits &traits,
+                     const CycleRecord               &record,
+                     std::vector<double>             &indicators)
+    {
+      const std::vector<double> oscillations
+        = estimate::load_oscillations(*cycle.solution.displacement,
+                                      sources.scene,
+                                      cycle.comparison.material_map(),
+                                      cycle.comparison.mpi_communicator());
+      if (oscillations.empty() || indicators.empty())
+        return;
+      double factor = 1.;
+      if (!traits.is_energy_norm)
+        {
+          const double energy = record.estimate.value_or(0.1 * cycle.solution.norm.value);
+          if (!(energy > 0.))
+            return;
+          factor = compare::root_of_squares(indicators) / energy;
+        }
+      for (std::size_t cell = 0; cell < indicators.size(); ++cell)
+        indicators[cell] = std::hypot(indicators[cell], factor * oscillations[cell]);
     }
   } // namespace
 
@@ -138,7 +169,10 @@ namespace tetradapt::adapt
         const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
         const bool   drives  = driven && which == sources.scene.adaptivity.refinement_indicator;
         if (drives)
-          indicators = estimate.indicators;
+          {
+            indicators = estimate.indicators;
+            add_oscillations(sources, cycle, estimator->traits(), record, indicators);
+          }
         if (estimate.missing)
           continue;
         KnownError comparable = known.source == which ? KnownError() : known;

@@ -2,8 +2,10 @@
 #include "tetradapt/adapt/driver.h"
 
 #include "tetradapt/adapt/cycle_estimates.h"
+#include "tetradapt/adapt/load_record.h"
 #include "tetradapt/adapt/placement.h"
 #include "tetradapt/adapt/solution_record.h"
+#include "tetradapt/compare/stress_difference.h"
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/on_first_rank.h"
 #include "tetradapt/mesh/mesh_checks.h"
@@ -79,10 +81,13 @@ namespace tetradapt::adapt
     StopDecision decision;
     for (unsigned int number = 0; !decision.stop(); ++number)
       {
-        Cycle      cycle    = solve_cycle(number);
-        const bool rejected = is_rejected(cycle);
+        Cycle      cycle       = solve_cycle(number);
+        const bool by_estimate = accepted && is_tested && compares_estimates(cycle);
+        bool       rejected    = !by_estimate && is_rejected_by_energy(cycle);
         if (!rejected)
           compare_and_estimate(cycle);
+        if (by_estimate)
+          rejected = is_rejected_by_estimate(cycle);
         set_seconds(cycle.record);
         history.push_back(cycle.record);
         core::on_first_rank(communicator, [&]() { announce(cycle); });
@@ -213,9 +218,17 @@ namespace tetradapt::adapt
         cycle.record.algebraic_error         = cycle.solution.algebraic_error;
       }
     check_range(cycle.record);
+    describe_loads(scene,
+                   cycle.solution.loads,
+                   history.empty() ? std::vector<LoadRecord>() : history.front().loads,
+                   cycle.record);
+    for (const std::string &line : load_lines(cycle.record))
+      log.detail(line);
     {
       const auto scope = timer.scope("estimate");
       doubts           = doubts_about(*cycle.solution.displacement, communicator);
+      for (const Doubt &doubt : doubts_about_loads(cycle.record))
+        doubts.push_back(doubt);
       for (const Doubt &doubt : doubts)
         log.warning("cycle " + std::to_string(number) + ": " + doubt.what);
     }
@@ -263,18 +276,50 @@ namespace tetradapt::adapt
   }
 
   bool
-  Driver::is_rejected(Cycle &cycle)
+  Driver::compares_estimates(const Cycle &cycle) const
+  {
+    return !is_same_problem(change_of_problem(accepted->record, cycle.record), current.swept);
+  }
+
+  bool
+  Driver::is_rejected_by_energy(Cycle &cycle)
   {
     if (!accepted || !is_tested)
       return false;
-    const EnergyTest test = compare_energies(accepted->energy, cycle.energy, current.swept);
+    const double     change = change_of_problem(accepted->record, cycle.record);
+    const EnergyTest test = compare_energies(accepted->energy, cycle.energy, current.swept, change);
     if (!test.is_worse())
       return false;
     std::ostringstream text;
-    text << "Cycle " << cycle.record.cycle << ": with " << cycle.record.tets
-         << " tetrahedra the potential energy is " << cycle.energy.potential << ", above the "
-         << accepted->energy.potential << " of cycle " << accepted->record.cycle << " with "
-         << accepted->record.tets;
+    text << "the potential energy is " << cycle.energy.potential << ", above the "
+         << accepted->energy.potential;
+    return reject(cycle, text.str());
+  }
+
+  bool
+  Driver::is_rejected_by_estimate(Cycle &cycle)
+  {
+    const double before = compare::root_of_squares(accepted->indicators);
+    const double after  = compare::root_of_squares(cycle.indicators);
+    log.detail("Cycle " + std::to_string(cycle.record.cycle)
+               + ": the loads or the volume changed with the mesh, so that estimates are "
+                 "compared in place of energies.");
+    if (!is_worse_estimate(before, after))
+      return false;
+    std::ostringstream text;
+    text << "the refinement indicator's estimate is " << after << ", above the " << before;
+    if (!reject(cycle, text.str()))
+      return false;
+    levels.pop_back();
+    return true;
+  }
+
+  bool
+  Driver::reject(Cycle &cycle, const std::string &reason)
+  {
+    std::ostringstream text;
+    text << "Cycle " << cycle.record.cycle << ": with " << cycle.record.tets << " tetrahedra "
+         << reason << " of cycle " << accepted->record.cycle << " with " << accepted->record.tets;
     if (n_rejected == 2)
       {
         // Even where every tetrahedron was cut; then it is not the mesh.

@@ -5,18 +5,10 @@
 
 namespace tetradapt::compare
 {
-  GivenLoads::Value::Value(const std::array<std::string, 3> &texts, const std::string &what)
-    : expression(texts, what), is_constant(expression.is_constant()),
-      uses_normal(expression.uses_normal())
-  {
-    if (is_constant)
-      constant = expression(Point<3>(), Tensor<1, 3>());
-  }
-
   GivenLoads::GivenLoads(const scene::Scene           &scene,
                          const mechanics::MaterialMap &materials,
                          const mesh::TetMesh          &mesh)
-    : mesh(mesh), mesh_parameters(scene.mesh), patches(mesh.patches.size())
+    : mesh(mesh), materials(materials), surface_loads(scene, mesh), patches(mesh.patches.size())
   {
     const auto for_patches = [&](const std::string &selection, const auto &action) {
       for (unsigned int p = 0; p < patches.size(); ++p)
@@ -34,40 +26,8 @@ namespace tetradapt::compare
             patch.known &= ~(1u << c);
           });
     for (const auto &load : scene.loads)
-      {
-        const std::string what  = "Loads/" + load.name;
-        const unsigned    value = values.size();
-        switch (load.type)
-          {
-          case scene::LoadType::traction:
-          case scene::LoadType::pressure:
-            {
-              const bool is_pressure = load.type == scene::LoadType::pressure;
-              values.emplace_back(is_pressure
-                                    ? std::array<std::string, 3>{{load.value[0], "0", "0"}}
-                                    : load.value,
-                                  what + "/Value");
-              for_patches(what, [&](PatchConditions &patch) {
-                patch.loads.push_back({value, is_pressure});
-              });
-              break;
-            }
-          case scene::LoadType::nodal_force:
-            for_patches(what, [](PatchConditions &patch) { patch.known = 0; });
-            break;
-          case scene::LoadType::body_force:
-          case scene::LoadType::gravity:
-            values.emplace_back(load.value, what + "/Value");
-            body_forces.push_back({value, {}});
-            for (const int region :
-                 mechanics::resolve_regions(load.selector.ids, load.selector.groups, mesh, what))
-              body_forces.back().factors[region]
-                = load.type == scene::LoadType::gravity ? materials.parameters(region).density : 1.;
-            break;
-          case scene::LoadType::temperature:
-            break; // not a force: its stress is part of the law's
-          }
-      }
+      if (load.type == scene::LoadType::nodal_force)
+        for_patches("Loads/" + load.name, [](PatchConditions &patch) { patch.known = 0; });
   }
 
   Tensor<1, 3>
@@ -76,13 +36,8 @@ namespace tetradapt::compare
                        const Tensor<1, 3> &normal) const
   {
     Tensor<1, 3> sum;
-    for (const auto &load : patches[mesh.faces[face].patch].loads)
-      {
-        const Value       &given = values[load.value];
-        const Tensor<1, 3> value
-          = given.uses_normal ? given(point, surface().at(face, point).normal) : given(point);
-        sum += load.is_pressure ? -value[0] * normal : value;
-      }
+    for (const unsigned int load : surface_loads.on_face(face))
+      sum += surface_loads.traction(load, face, point, normal);
     return sum;
   }
 
@@ -90,32 +45,62 @@ namespace tetradapt::compare
   GivenLoads::surface_traction(const unsigned int face, const mesh::SurfacePoint &at) const
   {
     Tensor<1, 3> sum;
-    for (const auto &load : patches[mesh.faces[face].patch].loads)
-      {
-        const Tensor<1, 3> value = values[load.value](at.point, at.normal);
-        sum += load.is_pressure ? -value[0] * at.normal : value;
-      }
+    for (const unsigned int load : surface_loads.on_face(face))
+      sum += surface_loads.surface_traction(load, at);
     return sum;
-  }
-
-  const mesh::TrueSurface &
-  GivenLoads::surface() const
-  {
-    if (true_surface == nullptr)
-      true_surface = std::make_unique<mesh::TrueSurface>(mesh_parameters, mesh);
-    return *true_surface;
   }
 
   Tensor<1, 3>
   GivenLoads::body_force(const unsigned int cell, const Point<3> &point) const
   {
     Tensor<1, 3> sum;
-    for (const auto &force : body_forces)
-      {
-        const auto factor = force.factors.find(mesh.regions[cell]);
-        if (factor != force.factors.end())
-          sum += factor->second * values[force.value](point);
-      }
+    for (const auto &force : materials.body_forces())
+      sum += force.second.value(mesh.regions[cell], point);
     return sum;
+  }
+
+  const mechanics::SurfaceLoads::Samples &
+  GivenLoads::face_points(const unsigned int face) const
+  {
+    most_on_face.clear();
+    for (const unsigned int load : surface_loads.on_face(face))
+      {
+        surface_loads.sample(load, face, face_samples);
+        if (face_samples.size() > most_on_face.size())
+          most_on_face.swap(face_samples);
+      }
+    return most_on_face;
+  }
+
+  const mechanics::VolumeDensity::Samples &
+  GivenLoads::cell_points(const unsigned int cell) const
+  {
+    most_in_cell.clear();
+    for (const auto &force : materials.body_forces())
+      if (force.second.acts_in(mesh.regions[cell]))
+        {
+          force.second.sample(mesh, cell, cell_samples);
+          if (cell_samples.size() > most_in_cell.size())
+            most_in_cell.swap(cell_samples);
+        }
+    return most_in_cell;
+  }
+
+  bool
+  GivenLoads::is_constant_on(const unsigned int face) const
+  {
+    const auto &loads = surface_loads.on_face(face);
+    return std::all_of(loads.begin(), loads.end(), [&](const unsigned int load) {
+      return surface_loads.is_constant(load);
+    });
+  }
+
+  bool
+  GivenLoads::is_constant_in(const unsigned int cell) const
+  {
+    const auto &forces = materials.body_forces();
+    return std::all_of(forces.begin(), forces.end(), [&](const auto &force) {
+      return force.second.is_constant(mesh.regions[cell]);
+    });
   }
 } // namespace tetradapt::compare

@@ -18,8 +18,8 @@ namespace tetradapt::estimate
   {
     using Values = EnrichedSpace::Values;
 
-    /** Adds the loads' forces on the surplus; those on the nodes are known. Faces are
-     * integrated with 7 points, cells with 14, as for the solution. */
+    /** Adds the loads' forces on the surplus; those on the nodes are known. Loads are sampled
+     * as for the solution. */
     class SurplusLoads
     {
     public:
@@ -35,23 +35,17 @@ namespace tetradapt::estimate
       add_faces(Values &forces) const
       {
         const auto slice = compare::own_slice(mesh.faces.size(), space.communicator());
-        const dealii::QGaussSimplex<2> rule(3);
-        double                         shapes[HierarchicalSurplus::max_per_cell];
+        double     shapes[HierarchicalSurplus::max_per_cell];
         for (unsigned int f = slice.begin; f < slice.end; ++f)
           if (loads.has_traction(f))
             {
               const unsigned int slot = surplus.faces().boundary_slots[f], cell = slot / 4;
-              const Tensor<1, 3> area   = mesh::face_area_vector(mesh, mesh.faces[f]);
-              const Tensor<1, 3> normal = area / area.norm();
-              for (unsigned int q = 0; q < rule.size(); ++q)
-                {
-                  const auto &t = rule.point(q);
-                  const auto  b = on_face(cell, f, {{1. - t[0] - t[1], t[0], t[1]}});
-                  HierarchicalSurplus::values(surplus.degree(), b, shapes);
-                  const Tensor<1, 3> force = 2. * rule.weight(q) * area.norm()
-                                             * loads.traction(f, position(cell, b), normal);
-                  add(cell, shapes, force, forces);
-                }
+              const double       area = mesh::face_area_vector(mesh, mesh.faces[f]).norm();
+              loads.sample_face(
+                f, [&](const std::array<double, 3> &b, double weight, const Tensor<1, 3> &value) {
+                  HierarchicalSurplus::values(surplus.degree(), on_face(cell, f, b), shapes);
+                  add(cell, shapes, weight * area * value, forces);
+                });
             }
       }
 
@@ -60,31 +54,29 @@ namespace tetradapt::estimate
       {
         if (!loads.has_body_force() && !materials.has_thermal_strain())
           return;
-        const auto   slice = compare::own_slice(mesh.n_cells(), space.communicator());
-        const auto  &rule  = compare::tet_quadrature(5);
-        double       shapes[HierarchicalSurplus::max_per_cell];
-        Tensor<1, 3> gradients[HierarchicalSurplus::max_per_cell];
+        const auto slice = compare::own_slice(mesh.n_cells(), space.communicator());
+        mechanics::VolumeDensity::Samples samples;
+        double                            shapes[HierarchicalSurplus::max_per_cell];
+        Tensor<1, 3>                      gradients[HierarchicalSurplus::max_per_cell];
         for (unsigned int cell = slice.begin; cell < slice.end; ++cell)
           {
             const auto   directions = mesh::barycentric_gradients(mesh, cell);
             const double volume     = mesh::cell_volume(mesh, cell);
-            for (unsigned int q = 0; q < rule.points.size(); ++q)
+            loads.sample_cell(
+              cell, [&](const mesh::Barycentric &b, double weight, const Tensor<1, 3> &value) {
+                HierarchicalSurplus::values(surplus.degree(), b, shapes);
+                add(cell, shapes, volume * weight * value, forces);
+              });
+            if (!materials.has_thermal_strain())
+              continue;
+            materials.thermal_density().sample(mesh, cell, samples);
+            for (const auto &point : samples)
               {
-                const Point<3> x      = position(cell, rule.points[q]);
-                const double   weight = volume * rule.weights[q];
-                if (loads.has_body_force())
-                  {
-                    HierarchicalSurplus::values(surplus.degree(), rule.points[q], shapes);
-                    add(cell, shapes, weight * loads.body_force(cell, x), forces);
-                  }
-                if (materials.has_thermal_strain())
-                  {
-                    HierarchicalSurplus::gradients(surplus.degree(),
-                                                   rule.points[q],
-                                                   directions,
-                                                   gradients);
-                    add(cell, gradients, weight * thermal_stress(cell, x), forces);
-                  }
+                HierarchicalSurplus::gradients(surplus.degree(), point.b, directions, gradients);
+                add(cell,
+                    gradients,
+                    volume * point.weight * thermal_stress(cell, point.value[0]),
+                    forces);
               }
           }
       }
@@ -101,22 +93,12 @@ namespace tetradapt::estimate
         return b;
       }
 
-      Point<3>
-      position(unsigned int cell, const mesh::Barycentric &b) const
-      {
-        Point<3> x;
-        for (unsigned int i = 0; i < 4; ++i)
-          x += b[i] * Tensor<1, 3>(mesh.points[mesh.cells[cell][i]]);
-        return x;
-      }
-
       /** The stress that would hold the thermal strain back. */
       Tensor<2, 3>
-      thermal_stress(unsigned int cell, const Point<3> &x) const
+      thermal_stress(unsigned int cell, const double strain) const
       {
-        const int region = mesh.regions[cell];
-        return Tensor<2, 3>(
-          materials.law(region).stress(Tensor<2, 3>(materials.thermal_strain(region, x))));
+        return Tensor<2, 3>(materials.law(mesh.regions[cell])
+                              .stress(strain * Tensor<2, 3>(dealii::unit_symmetric_tensor<3>())));
       }
 
       /** Adds factor times (value or gradient) of each function: force times values, or

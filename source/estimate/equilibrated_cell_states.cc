@@ -9,6 +9,39 @@
 
 namespace tetradapt::estimate
 {
+  namespace
+  {
+    /** Means of a constant times the functions. */
+    void
+    set_constant_means(const double value, std::array<double, 10> &means)
+    {
+      for (unsigned int i = 0; i < 10; ++i)
+        means[i] = (i < 4 ? .25 : .2) * value;
+    }
+  } // namespace
+
+  std::array<double, 10>
+  quadratic_functions(const mesh::Barycentric &b)
+  {
+    std::array<double, 10> f;
+    for (unsigned int i = 0; i < 4; ++i)
+      f[i] = b[i];
+    for (unsigned int e = 0; e < 6; ++e)
+      f[4 + e] = 4. * b[mesh::edge_vertices[e][0]] * b[mesh::edge_vertices[e][1]];
+    return f;
+  }
+
+  template <typename Value>
+  std::array<Value, 10>
+  CellStates::polynomial_with(const std::array<Value, 10> &means) const
+  {
+    std::array<Value, 10> result{};
+    for (unsigned int i = 0; i < 10; ++i)
+      for (unsigned int j = 0; j < 10; ++j)
+        result[i] += inverse_products(i, j) * means[j];
+    return result;
+  }
+
   void
   CellStates::compute_stress(const unsigned int cell, const Region &region, CellState &state) const
   {
@@ -53,29 +86,33 @@ namespace tetradapt::estimate
                                  const Region      &region,
                                  CellState         &state) const
   {
-    std::array<SymmetricTensor<2, 3>, 10> polynomial;
-    std::vector<SymmetricTensor<2, 3>>    strains(points.size());
-    for (unsigned int q = 0; q < points.size(); ++q)
+    materials.thermal_density().sample_compactly(mesh, cell, samples);
+    std::array<double, 10> means{};
+    for (const auto &point : samples)
       {
-        strains[q] = materials.thermal_strain(mesh.regions[cell], position(cell, q));
+        const auto f = quadratic_functions(point.b);
         for (unsigned int i = 0; i < 10; ++i)
-          polynomial[i] += projection[q][i] * strains[q];
+          means[i] += point.weight * f[i] * point.value[0];
       }
-    double rest = 0., all = 0.;
-    for (unsigned int q = 0; q < points.size(); ++q)
+    if (samples.size() == 1)
+      set_constant_means(samples[0].value[0], means);
+    const auto   polynomial = polynomial_with(means);
+    const auto   unit       = region.law->stress(Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()));
+    const double energy     = region.law->complementary_density(unit); // of a strain of one
+    double       rest = 0., all = 0.;
+    for (const auto &point : samples)
       {
-        SymmetricTensor<2, 3> difference = strains[q];
+        const auto f          = quadratic_functions(point.b);
+        double     difference = point.value[0];
         for (unsigned int i = 0; i < 10; ++i)
-          difference -= functions[q][i] * polynomial[i];
-        const auto stress = region.law->stress(Tensor<2, 3>(difference));
-        rest += weights[q] * region.law->complementary_density(stress);
-        all += weights[q]
-               * region.law->complementary_density(region.law->stress(Tensor<2, 3>(strains[q])));
+          difference -= f[i] * polynomial[i];
+        rest += point.weight * energy * difference * difference;
+        all += point.weight * energy * point.value[0] * point.value[0];
       }
-    if (rest > 1e-26 * all)
+    if (samples.size() > 1 && rest > 1e-26 * all)
       state.thermal_oscillation = std::sqrt(rest * state.volume);
     for (unsigned int i = 0; i < 10; ++i)
-      state.stress[i] -= region.law->stress(Tensor<2, 3>(polynomial[i]));
+      state.stress[i] -= polynomial[i] * unit;
     state.has_bubbles = true;
   }
 
@@ -89,47 +126,58 @@ namespace tetradapt::estimate
     state.has_curvature     = false;
     if (region.variable_forces.empty())
       return;
-    std::vector<Tensor<1, 3>> values(points.size());
-    Tensor<1, 3>              sum, moments[4];
-    for (unsigned int q = 0; q < points.size(); ++q)
+    state.curvature.fill(Tensor<1, 3>());
+    for (const mechanics::VolumeDensity *force : region.variable_forces)
+      add_variable_force(cell, *force, state);
+  }
+
+  void
+  CellStates::add_variable_force(const unsigned int              cell,
+                                 const mechanics::VolumeDensity &force,
+                                 CellState                      &state) const
+  {
+    force.sample(mesh, cell, samples);
+    std::array<Tensor<1, 3>, 10> means;
+    for (const auto &point : samples)
       {
-        const Point<3> x = position(cell, q);
-        for (const auto &load : region.variable_forces)
-          values[q] += load.factor * load.value(x);
+        const auto f = quadratic_functions(point.b);
         for (unsigned int i = 0; i < 10; ++i)
-          state.force[i] += state.volume * weights[q] * functions[q][i] * values[q];
-        for (unsigned int i = 0; i < 4; ++i)
-          moments[i] += weights[q] * functions[q][i] * values[q];
+          means[i] += point.weight * f[i] * point.value;
       }
+    Tensor<1, 3> sum;
+    for (unsigned int i = 0; i < 10; ++i)
+      state.force[i] += state.volume * means[i];
     for (unsigned int i = 0; i < 4; ++i)
-      sum += moments[i];
+      sum += means[i];
     // Inverse of the mean products (1 + delta_ij) / 20 of the coordinates.
     std::array<Tensor<1, 3>, 4> linear;
     for (unsigned int i = 0; i < 4; ++i)
       {
-        linear[i] = 20. * moments[i] - 4. * sum;
+        linear[i] = 20. * means[i] - 4. * sum;
         state.density[i] += linear[i];
       }
     // The coefficients of the bubbles in the nearest quadratic polynomial.
-    state.curvature.fill(Tensor<1, 3>());
-    for (unsigned int q = 0; q < points.size(); ++q)
-      for (unsigned int e = 0; e < 6; ++e)
-        state.curvature[e] += projection[q][4 + e] * values[q];
-    double rest = 0., curved = 0., all = 0.;
-    for (unsigned int q = 0; q < points.size(); ++q)
+    const auto polynomial = polynomial_with(means);
+    double     rest = 0., curved = 0., all = 0.;
+    for (const auto &point : samples)
       {
-        Tensor<1, 3> difference = values[q];
+        Tensor<1, 3> difference = point.value;
         for (unsigned int i = 0; i < 4; ++i)
-          difference -= points[q][i] * linear[i];
-        curved += weights[q] * difference.norm_square();
+          difference -= point.b[i] * linear[i];
+        curved += point.weight * difference.norm_square();
         for (unsigned int e = 0; e < 6; ++e)
-          difference -= EquilibratedElement::orthogonal_bubble(e, points[q]) * state.curvature[e];
-        rest += weights[q] * difference.norm_square();
-        all += weights[q] * values[q].norm_square();
+          difference -= EquilibratedElement::orthogonal_bubble(e, point.b) * polynomial[4 + e];
+        rest += point.weight * difference.norm_square();
+        all += point.weight * point.value.norm_square();
       }
     // Rounding is neither curvature nor oscillation.
-    state.has_curvature = curved > 1e-26 * all;
+    if (curved > 1e-26 * all)
+      {
+        state.has_curvature = true;
+        for (unsigned int e = 0; e < 6; ++e)
+          state.curvature[e] += polynomial[4 + e];
+      }
     if (rest > 1e-26 * all)
-      state.force_oscillation = std::sqrt(rest * state.volume);
+      state.force_oscillation += std::sqrt(rest * state.volume);
   }
 } // namespace tetradapt::estimate

@@ -4,7 +4,6 @@
 #include "tetradapt/compare/tet_quadrature.h"
 #include "tetradapt/estimate/equilibrated_batch.h"
 #include "tetradapt/estimate/equilibrated_faces.h"
-#include "tetradapt/estimate/equilibrated_projection.h"
 #include "tetradapt/mesh/edges.h"
 
 #include <algorithm>
@@ -16,28 +15,22 @@ namespace tetradapt::estimate
   {
     /** Entries of a symmetric tensor in the order xx, yy, zz, yz, zx, xy. */
     constexpr unsigned int components[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
-
-    std::array<double, 10>
-    hierarchical(const mesh::Barycentric &b)
-    {
-      std::array<double, 10> h;
-      for (unsigned int i = 0; i < 4; ++i)
-        h[i] = b[i];
-      for (unsigned int e = 0; e < 6; ++e)
-        h[4 + e] = 4. * b[mesh::edge_vertices[e][0]] * b[mesh::edge_vertices[e][1]];
-      return h;
-    }
   } // namespace
 
   CellStates::CellStates(const mesh::NodalField       &u_h,
                          const scene::Scene           &scene,
                          const mechanics::MaterialMap &materials)
-    : u_h(u_h), mesh(u_h.mesh()), materials(materials), points(compare::tet_quadrature(5).points),
-      weights(compare::tet_quadrature(5).weights)
+    : u_h(u_h), mesh(u_h.mesh()), materials(materials), inverse_products(10, 10)
   {
-    for (const auto &b : points)
-      functions.push_back(hierarchical(b));
-    projection = least_squares(functions, weights);
+    const compare::TetQuadrature &rule = compare::tet_quadrature(5);
+    for (unsigned int q = 0; q < rule.points.size(); ++q)
+      {
+        const auto f = quadratic_functions(rule.points[q]);
+        for (unsigned int i = 0; i < 10; ++i)
+          for (unsigned int j = 0; j < 10; ++j)
+            inverse_products(i, j) += rule.weights[q] * f[i] * f[j];
+      }
+    inverse_products.gauss_jordan();
 
     int last = 0;
     for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
@@ -47,36 +40,21 @@ namespace tetradapt::estimate
           if (regions.count(last) == 0)
             regions.emplace(last, make_region(last));
         }
-    for (const auto &load : scene.loads)
+    for (auto &[id, region] : regions)
       {
-        using scene::LoadType;
-        if (load.type == LoadType::traction || load.type == LoadType::pressure)
-          continue;
-        const std::string what = "Loads/" + load.name;
-        for (const int id :
-             mechanics::resolve_regions(load.selector.ids, load.selector.groups, mesh, what))
-          {
-            Region &region = regions.at(id);
-            if (load.type == LoadType::temperature)
-              {
-                region.thermal = true;
-                continue;
-              }
-            const core::VectorExpression value(load.value, what + "/Value");
-            const double                 factor
-              = load.type == LoadType::gravity ? materials.parameters(id).density : 1.;
-            if (value.is_constant())
-              region.constant_force += factor * value(Point<3>());
-            else
-              region.variable_forces.push_back({value, factor});
-          }
+        region.thermal = materials.has_thermal_strain() && materials.thermal_density().acts_in(id);
+        for (const auto &force : materials.body_forces())
+          if (force.second.is_constant(id))
+            region.constant_force += force.second.value(id, Point<3>());
+          else
+            region.variable_forces.push_back(&force.second);
       }
   }
 
   CellStates::Region
   CellStates::make_region(const int id) const
   {
-    Region region{&materials.law(id), {}, 0., {}, {}, false};
+    Region region{&materials.law(id), {}, 0., {}, false, {}};
     // A stress is the sum of its components times these.
     std::array<SymmetricTensor<2, 3>, 6> unit;
     for (unsigned int p = 0; p < 6; ++p)
@@ -92,15 +70,6 @@ namespace tetradapt::estimate
     return region;
   }
 
-  Point<3>
-  CellStates::position(const unsigned int cell, const unsigned int q) const
-  {
-    Point<3> x;
-    for (unsigned int i = 0; i < 4; ++i)
-      x += points[q][i] * Tensor<1, 3>(mesh.points[mesh.cells[cell][i]]);
-    return x;
-  }
-
   void
   CellStates::compute(const unsigned int cell, CellState &state) const
   {
@@ -108,6 +77,18 @@ namespace tetradapt::estimate
     state.volume         = mesh::cell_volume(mesh, cell);
     state.gradients      = mesh::barycentric_gradients(mesh, cell);
     compute_stress(cell, region, state);
+    compute_force(cell, region, state);
+  }
+
+  void
+  CellStates::compute_loads(const unsigned int cell, CellState &state) const
+  {
+    const Region &region      = this->region(cell);
+    state.volume              = mesh::cell_volume(mesh, cell);
+    state.gradients           = mesh::barycentric_gradients(mesh, cell);
+    state.thermal_oscillation = 0.;
+    if (region.thermal && !materials.is_mixed())
+      add_thermal_stress(cell, region, state);
     compute_force(cell, region, state);
   }
 

@@ -103,16 +103,15 @@ namespace tetradapt::estimate
       {
         const Tensor<1, 3> divergence = stress_divergence(cell);
         const double       volume     = volumes[cell];
-        double             sum        = loads.has_body_force() ? 0. : divergence.norm_square();
-        if (loads.has_body_force())
-          {
-            const auto &rule = compare::tet_quadrature(2);
-            for (unsigned int q = 0; q < rule.points.size(); ++q)
-              sum += rule.weights[q]
-                     * (divergence
-                        + loads.body_force(cell, compare::position(mesh, cell, rule.points[q])))
-                         .norm_square();
-          }
+        double             sum        = 0.;
+        if (loads.is_constant_in(cell))
+          sum
+            = (divergence + loads.body_force(cell, mesh.points[mesh.cells[cell][0]])).norm_square();
+        else
+          for (const auto &point : loads.cell_points(cell))
+            sum += point.weight
+                   * (divergence + loads.body_force(cell, compare::position(mesh, cell, point.b)))
+                       .norm_square();
         double area = 0.;
         for (const auto &v : mesh::face_vertices)
           area += area_vector(cell, v).norm();
@@ -203,18 +202,28 @@ namespace tetradapt::estimate
         add_acoustic_tensor(1., stress.materials()[cell], place.normal, Q);
         const InverseNorm norm(Q);
         double            sum = 0.;
-        for (unsigned int q = 0; q < 3; ++q)
-          {
-            double s[6];
-            stress.at(cell, place.barycentric[q], place.points[q], s);
-            Tensor<1, 3> missing = -traction(s, place.normal);
-            if (loads.has_traction(face))
-              missing += loads.traction(face, place.points[q], place.normal);
-            for (unsigned int c = 0; c < 3; ++c)
-              if ((known >> c & 1) == 0)
-                missing[c] = 0.;
-            sum += norm.square(missing) / 3.;
-          }
+        const auto        add = [&](const mesh::Barycentric &b, const Point<3> &x, double weight) {
+          double s[6];
+          stress.at(cell, b, x, s);
+          Tensor<1, 3> missing = -traction(s, place.normal);
+          if (loads.has_traction(face))
+            missing += loads.traction(face, x, place.normal);
+          for (unsigned int c = 0; c < 3; ++c)
+            if ((known >> c & 1) == 0)
+              missing[c] = 0.;
+          sum += weight * norm.square(missing);
+        };
+        if (loads.is_constant_on(face))
+          for (unsigned int q = 0; q < 3; ++q)
+            add(place.barycentric[q], place.points[q], 1. / 3.);
+        else
+          for (const auto &point : loads.face_points(face))
+            {
+              mesh::Barycentric b{{0., 0., 0., 0.}};
+              for (unsigned int k = 0; k < 3; ++k)
+                b[local_number(cell, mesh.faces[face].vertices[k])] = point.b[k];
+              add(b, compare::position(mesh, cell, b), point.weight);
+            }
         squares[cell] += 2. * constant * 3. * volumes[cell] * sum;
       }
 

@@ -59,7 +59,8 @@ namespace tetradapt::mechanics
   }
 
   MaterialMap::MaterialMap(const scene::Scene &scene, const mesh::TetMesh &mesh)
-    : materials(scene.materials), mixed(scene.formulation == scene::Formulation::mixed)
+    : materials(scene.materials), temperatures(mesh::bounding_box(mesh)),
+      mixed(scene.formulation == scene::Formulation::mixed)
   {
     // Materials that name regions come first; one that names none fills the rest.
     std::vector<const scene::MaterialParameters *> order;
@@ -85,7 +86,7 @@ namespace tetradapt::mechanics
           {
             const auto existing = entries.find(region);
             if (existing == entries.end())
-              entries[region] = Entry{material, law, {}};
+              entries[region] = Entry{material, law};
             else if (!everywhere)
               throw core::InputError("Region " + std::to_string(region)
                                      + " is given two materials, Materials/"
@@ -99,15 +100,42 @@ namespace tetradapt::mechanics
           "Region " + std::to_string(region)
           + " of the mesh has no material. Name it in one of the Materials, or "
             "add a material without Regions, which fills what the others leave.");
-    for (const auto &load : scene.loads)
-      if (load.type == scene::LoadType::temperature)
-        {
-          const core::Expression temperature(load.value[0], "Loads/" + load.name + "/Value");
-          for (const int region :
-               resolve_regions(load.selector.ids, load.selector.groups, mesh, "Loads/" + load.name))
-            entries[region].temperatures.push_back(temperature);
-          thermal = true;
-        }
+    add_loads(scene, mesh);
+  }
+
+  void
+  MaterialMap::add_loads(const scene::Scene &scene, const mesh::TetMesh &mesh)
+  {
+    using scene::LoadType;
+    for (unsigned int i = 0; i < scene.loads.size(); ++i)
+      {
+        const scene::LoadParameters &load = scene.loads[i];
+        if (load.type != LoadType::temperature && load.type != LoadType::body_force
+            && load.type != LoadType::gravity)
+          continue;
+        const std::string     what = "Loads/" + load.name;
+        std::map<int, double> factors;
+        for (const int region :
+             resolve_regions(load.selector.ids, load.selector.groups, mesh, what))
+          factors[region] = load.type == LoadType::temperature
+                              ? parameters(region).thermal_expansion
+                            : load.type == LoadType::gravity ? parameters(region).density
+                                                             : 1.;
+        if (load.type == LoadType::temperature)
+          {
+            temperatures.add_term({{load.value[0], "0", "0"}},
+                                  what,
+                                  factors,
+                                  load.smallest_feature);
+            thermal = true;
+          }
+        else
+          {
+            VolumeDensity density(mesh::bounding_box(mesh));
+            density.add_term(load.value, what, factors, load.smallest_feature);
+            forces.emplace(i, std::move(density));
+          }
+      }
   }
 
   const MaterialMap::Entry &
@@ -148,15 +176,5 @@ namespace tetradapt::mechanics
   MaterialMap::has_thermal_strain() const
   {
     return thermal;
-  }
-
-  SymmetricTensor<2, 3>
-  MaterialMap::thermal_strain(int region, const dealii::Point<3> &point) const
-  {
-    double temperature = 0.;
-    if (thermal)
-      for (const auto &expression : entry(region).temperatures)
-        temperature += expression(point);
-    return parameters(region).thermal_expansion * temperature * dealii::unit_symmetric_tensor<3>();
   }
 } // namespace tetradapt::mechanics

@@ -101,25 +101,20 @@ namespace tetradapt::mechanics
     Vector load(space.vector_layout());
     if (!materials.has_thermal_strain())
       return load;
-    const DisplacementSpace       &displacements = space.displacements();
-    const mesh::TetMesh           &mesh          = displacements.tet_mesh();
-    const dealii::QGaussSimplex<3> rule(3);
+    const DisplacementSpace &displacements = space.displacements();
+    const mesh::TetMesh     &mesh          = displacements.tet_mesh();
+    VolumeDensity::Samples   samples;
     for (const unsigned int cell : displacements.touching_cells())
       {
+        if (!materials.thermal_density().acts_in(mesh.regions[cell]))
+          continue;
         const double volume = mesh::cell_volume(mesh, cell);
-        for (unsigned int q = 0; q < rule.size(); ++q)
-          {
-            const auto             &x = rule.point(q);
-            const mesh::Barycentric b{{1. - x[0] - x[1] - x[2], x[0], x[1], x[2]}};
-            dealii::Point<3>        point;
-            for (unsigned int i = 0; i < 4; ++i)
-              point += b[i] * dealii::Tensor<1, 3>(mesh.points[mesh.cells[cell][i]]);
-            const double strain = trace(materials.thermal_strain(mesh.regions[cell], point));
-            for (unsigned int i = 0; i < 4; ++i)
-              if (space.cell_node(cell, i) < space.n_owned_nodes())
-                load.local_element(space.cell_node(cell, i))
-                  -= 6. * rule.weight(q) * volume * b[i] * strain;
-          }
+        materials.thermal_density().sample_compactly(mesh, cell, samples);
+        for (const auto &point : samples)
+          for (unsigned int i = 0; i < 4; ++i)
+            if (space.cell_node(cell, i) < space.n_owned_nodes())
+              load.local_element(space.cell_node(cell, i))
+                -= point.weight * volume * point.b[i] * 3. * point.value[0];
       }
     return load;
   }

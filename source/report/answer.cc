@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/report/answer.h"
 
+#include "tetradapt/adapt/load_record.h"
 #include "tetradapt/report/reactions.h"
 #include "tetradapt/report/text_lines.h"
 
@@ -106,6 +107,12 @@ namespace tetradapt::report
       const ForceNoise          noise  = force_noise(forces);
       std::string               text
         = acting("reaction", forces.supports, noise) + acting("load", forces.loads, noise);
+      for (const adapt::LoadRecord &load : record.loads)
+        {
+          const std::string what = adapt::accuracy_of(load);
+          if (!what.empty())
+            text += entry("", "load " + load.name + " is " + what);
+        }
       return text
              + entry("imbalance",
                      format_number(forces.relative_imbalance, 2) + " of all forces; allowed "
@@ -181,8 +188,19 @@ namespace tetradapt::report
       return value;
     }
 
+    /** Behind "at most ...": how far a bound can be relied on. */
     std::string
-    errors(const adapt::CycleRecord &record)
+    reserve_of_bound(const scene::Scene &scene, const adapt::CycleRecord &record)
+    {
+      if (!adapt::bound_is_guaranteed(scene, record))
+        return "bound, up to the load's resolution, by '";
+      return scene.mesh.projection == scene::MeshParameters::Projection::none
+               ? "guaranteed bound by '"
+               : "guaranteed bound for the body with flat faces by '";
+    }
+
+    std::string
+    errors(const scene::Scene &scene, const adapt::CycleRecord &record)
     {
       std::string text;
       if (record.relative_energy_error && record.error_source != ErrorSource::none)
@@ -197,7 +215,8 @@ namespace tetradapt::report
           const bool bound = estimate.which == scene::ErrorEstimator::equilibrated;
           text += entry(text.empty() ? "energy norm's error" : "",
                         (bound ? "at most " : "about ") + percent(*estimate.relative)
-                          + (bound ? ", bounded by '" : ", estimated by '") + estimate.name + "'");
+                          + (bound ? ", " + reserve_of_bound(scene, record) : ", estimated by '")
+                          + estimate.name + "'");
         }
       return text.empty() ? entry("error", "not known: nothing measures or estimates it") : text;
     }
@@ -286,8 +305,8 @@ namespace tetradapt::report
                   + " tetrahedra, " + std::to_string(record.dofs) + " unknowns):",
                 width,
                 2);
-    text += extremes(record) + balance(record) + body(record) + goals(record) + errors(record)
-            + tolerances(scene, decision);
+    text += extremes(record) + balance(record) + body(record) + goals(record)
+            + errors(scene, record) + tolerances(scene, decision);
     if (!decision.success)
       text += entry("end", decision.text);
     return text + entry("next", advice(scene, record, decision));

@@ -120,6 +120,12 @@ namespace tetradapt::scene
              "pressure or a temperature. A traction or a pressure may also use nx, ny, nz, the "
              "unit normal that points out of the body: that of the surface which Mesh/Projection "
              "names at the nearest point, else that of the face of the mesh.");
+      binder("Smallest feature",
+             p.smallest_feature,
+             number_codec(),
+             "Size of the smallest thing that Value may show, such as a peak or a patch. Value is "
+             "looked at with this spacing, whatever the mesh, before it is integrated; 0: a "
+             "hundredth of the body's diagonal.");
       if (!binder.parsing())
         return;
 
@@ -263,6 +269,10 @@ namespace tetradapt::scene
     const std::string path = "Loads/" + name;
     if (acts_on_faces(type))
       mistakes.attempt([&]() { check_faces(selector, path); });
+    mistakes.require(smallest_feature >= 0.,
+                     path + "/Smallest feature",
+                     "must be positive, or 0 for a hundredth of the body's size; it is "
+                       + text_of(smallest_feature) + ".");
     const bool has_normal = type == LoadType::traction || type == LoadType::pressure;
     for (unsigned int c = 0; c < (is_scalar(type) ? 1u : 3u); ++c)
       mistakes.attempt([&]() {

@@ -42,13 +42,19 @@ namespace tetradapt::solve
         sum.*part = dealii::Utilities::MPI::sum(sum.*part, communicator);
     }
 
-    dealii::Point<3>
-    position(const mesh::TetMesh &mesh, const unsigned int cell, const mesh::Barycentric &b)
+    /** The displacement gradient at a point of a cell. */
+    dealii::Tensor<2, 3>
+    gradient_at(const mesh::NodalField &field, const unsigned int cell, const mesh::Barycentric &b)
     {
-      dealii::Point<3> x;
-      for (unsigned int i = 0; i < 4; ++i)
-        x += b[i] * dealii::Tensor<1, 3>(mesh.points[mesh.cells[cell][i]]);
-      return x;
+      std::array<dealii::Tensor<1, 3>, 10> gradients;
+      mesh::shape_gradients(field.degree(),
+                            b,
+                            mesh::barycentric_gradients(field.mesh(), cell),
+                            gradients.data());
+      dealii::Tensor<2, 3> G;
+      for (unsigned int k = 0; k < field.n_nodes_per_cell(); ++k)
+        G += outer_product(field.values[field.node(cell, k)], gradients[k]);
+      return G;
     }
 
     /** Displacement gradients at the points of a quadrature rule, cell by cell: the shape
@@ -105,18 +111,17 @@ namespace tetradapt::solve
                    const mechanics::MaterialMap &materials,
                    MPI_Comm                      communicator)
   {
-    const auto         &mesh    = displacement.mesh();
-    const unsigned long n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
-    const unsigned long rank    = dealii::Utilities::MPI::this_mpi_process(communicator);
-    // Temperatures are expressions: their strain varies in a cell whatever the degree.
-    const dealii::QGaussSimplex<3> quadrature(
-      materials.has_thermal_strain() ? 3 : displacement.degree());
-    const unsigned int begin = mesh.n_cells() * rank / n_ranks;
-    const unsigned int end   = mesh.n_cells() * (rank + 1) / n_ranks;
+    const auto                    &mesh    = displacement.mesh();
+    const unsigned long            n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
+    const unsigned long            rank    = dealii::Utilities::MPI::this_mpi_process(communicator);
+    const dealii::QGaussSimplex<3> quadrature(displacement.degree());
+    const unsigned int             begin = mesh.n_cells() * rank / n_ranks;
+    const unsigned int             end   = mesh.n_cells() * (rank + 1) / n_ranks;
 
     const GradientTable               table(displacement.degree(), quadrature);
     std::vector<dealii::Tensor<2, 3>> gradients(quadrature.size());
     ShearModuli                       shear_moduli(materials);
+    mechanics::VolumeDensity::Samples temperatures;
     Energies                          sum;
     for (unsigned int cell = begin; cell < end; ++cell)
       {
@@ -124,37 +129,39 @@ namespace tetradapt::solve
         const auto  &law    = materials.law(region);
         const double volume = mesh::cell_volume(mesh, cell);
         const double mu     = shear_moduli(region);
+        // In mixed form, of the elastic part of a gradient; else of a strain.
+        const auto density_at = [&](const mesh::Barycentric &b, const dealii::Tensor<2, 3> &G) {
+          return displacement.pressure ? law.complementary_density(
+                   materials.pressure_form(region).stress(G, displacement.pressure->value(cell, b)))
+                                       : law.energy_density(symmetrize(G));
+        };
         table.compute(displacement, cell, gradients);
+        double stored = 0.;
         for (unsigned int q = 0; q < quadrature.size(); ++q)
           {
-            const mesh::Barycentric &b = table.points[q];
-            sum.scale += 12. * volume * quadrature.weight(q) * mu * gradients[q].norm_square();
-            if (displacement.pressure)
-              {
-                const auto elastic = gradients[q]
-                                     - dealii::Tensor<2, 3>(
-                                       materials.thermal_strain(region, position(mesh, cell, b)));
-                const double part
-                  = 6. * volume * quadrature.weight(q)
-                    * law.complementary_density(materials.pressure_form(region).stress(
-                      elastic, displacement.pressure->value(cell, b)));
-                sum.energy += part;
-                sum.stored += 0.5 * part;
-                continue;
-              }
-            const auto   strain  = symmetrize(gradients[q]);
-            const double weight  = 6. * volume * quadrature.weight(q);
-            const double density = law.energy_density(strain);
-            sum.energy += weight * density;
-            if (!materials.has_thermal_strain())
-              {
-                sum.stored += 0.5 * weight * density;
-                continue;
-              }
-            sum.stored += 0.5 * weight
-                          * law.energy_density(
-                            strain - materials.thermal_strain(region, position(mesh, cell, b)));
+            const double weight = 6. * volume * quadrature.weight(q);
+            sum.scale += 2. * weight * mu * gradients[q].norm_square();
+            const double part = weight * density_at(table.points[q], gradients[q]);
+            stored += part;
+            if (!displacement.pressure)
+              sum.energy += part;
           }
+        if (materials.has_thermal_strain() && materials.thermal_density().acts_in(region))
+          {
+            // Temperatures are sampled as their loads are.
+            stored = 0.;
+            materials.thermal_density().sample(mesh, cell, temperatures);
+            for (const auto &point : temperatures)
+              stored
+                += point.weight * volume
+                   * density_at(point.b,
+                                gradient_at(displacement, cell, point.b)
+                                  - point.value[0]
+                                      * dealii::Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()));
+          }
+        sum.stored += 0.5 * stored;
+        if (displacement.pressure)
+          sum.energy += stored;
       }
     add_up(sum, communicator);
     return sum;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/solve/hexahedral_loads.h"
 
-#include "tetradapt/core/surface_expression.h"
+#include "tetradapt/mechanics/surface_loads.h"
 #include "tetradapt/mesh/hexahedral_field.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -65,40 +65,75 @@ namespace tetradapt::solve
           function(start + i * stride[first] + j * stride[second], i, j);
     }
 
-    void
-    add_side_load(const scene::LoadParameters &load,
-                  const HexahedralForest      &forest,
-                  const HexahedralSpace       &space,
-                  Vector                      &forces)
+    /** Lagrange's functions on a unit square at a point, the first direction fastest. */
+    std::vector<double>
+    square_functions(const unsigned int degree, const double s, const double t)
     {
-      const bool pressure = load.type == scene::LoadType::pressure;
-      const auto texts
-        = pressure ? std::array<std::string, 3>{{load.value[0], "0", "0"}} : load.value;
-      const core::SurfaceExpression value(texts, "Loads/" + load.name + "/Value");
-      const Line                    line(space.degree);
+      std::array<double, 4> along_s, along_t, unused;
+      mesh::lagrange(degree, s, along_s.data(), unused.data());
+      mesh::lagrange(degree, t, along_t.data(), unused.data());
+      std::vector<double> values;
+      for (unsigned int j = 0; j <= degree; ++j)
+        for (unsigned int i = 0; i <= degree; ++i)
+          values.push_back(along_s[i] * along_t[j]);
+      return values;
+    }
+
+    /** Adds load @p number of the scene, of which a side is two triangles, each sampled as the
+     * faces of tetrahedra are. */
+    void
+    add_side_load(const scene::LoadParameters   &load,
+                  const unsigned int             number,
+                  const mechanics::SurfaceLoads &loads,
+                  const HexahedralForest        &forest,
+                  const HexahedralSpace         &space,
+                  Vector                        &forces)
+    {
+      const Line                       line(space.degree);
+      mechanics::SurfaceLoads::Samples samples;
       for_selected_sides(forest, "Loads/" + load.name, [&](unsigned int c, unsigned int side) {
         const HexahedralCell     &cell = forest.cells()[c];
         const unsigned int        axis = side / 2, first = (axis + 1) % 3, second = (axis + 2) % 3;
         const double              area = cell.size[first] * cell.size[second];
         std::vector<Tensor<1, 3>> at_nodes(space.nodes_per_cell);
-        for (unsigned int s = 0; s < line.gauss.size(); ++s)
-          for (unsigned int t = 0; t < line.gauss.size(); ++t)
+        Tensor<1, 3>              normal;
+        normal[axis]        = side % 2 == 1 ? 1. : -1.;
+        const auto place_of = [&](double s, double t) {
+          Point<3> unit;
+          unit[axis]   = side % 2;
+          unit[first]  = s;
+          unit[second] = t;
+          return cell.at(unit);
+        };
+        const auto add = [&](double s, double t, double weight, const Tensor<1, 3> &value) {
+          const auto functions = square_functions(space.degree, s, t);
+          for_side_nodes(line.n, side, [&](unsigned int place, unsigned int i, unsigned int j) {
+            at_nodes[place] += area * weight * functions[j * line.n + i] * value;
+          });
+        };
+        if (loads.is_constant(number))
+          {
+            const Tensor<1, 3> value = loads.constant_traction(number, normal);
+            for (unsigned int s = 0; s < line.gauss.size(); ++s)
+              for (unsigned int t = 0; t < line.gauss.size(); ++t)
+                add(line.point(s),
+                    line.point(t),
+                    line.gauss.weight(s) * line.gauss.weight(t),
+                    value);
+          }
+        else
+          for (unsigned int half = 0; half < 2; ++half)
             {
-              Point<3> unit;
-              unit[axis]   = side % 2;
-              unit[first]  = line.point(s);
-              unit[second] = line.point(t);
-              Tensor<1, 3> normal;
-              normal[axis]       = side % 2 == 1 ? 1. : -1.;
-              Tensor<1, 3> force = value(cell.at(unit), normal);
-              if (pressure)
-                {
-                  force = -force[0] * normal;
-                }
-              force *= area * line.gauss.weight(s) * line.gauss.weight(t);
-              for_side_nodes(line.n, side, [&](unsigned int place, unsigned int i, unsigned int j) {
-                at_nodes[place] += line.values[s][i] * line.values[t][j] * force;
-              });
+              const double h = half;
+              loads.sample_triangle(number,
+                                    {{place_of(h, h), place_of(1., 0.), place_of(0., 1.)}},
+                                    normal,
+                                    samples);
+              for (const auto &point : samples)
+                add(h * point.b[0] + point.b[1],
+                    h * point.b[0] + point.b[2],
+                    0.5 * point.weight,
+                    point.value);
             }
         for_side_nodes(line.n, side, [&](unsigned int place, unsigned int, unsigned int) {
           space.add(forces, space.nodes(c)[place], at_nodes[place]);
@@ -106,57 +141,126 @@ namespace tetradapt::solve
       });
     }
 
-    /** Adds int density . v + int stress : grad v; contribute(region, x, density, stress)
-     * adds to what acts at x. */
+    /** The six tetrahedra around the diagonal of a unit cube. */
+    std::array<std::array<Point<3>, 4>, 6>
+    cube_parts()
+    {
+      std::array<std::array<Point<3>, 4>, 6> parts;
+      unsigned int                           order[3] = {0, 1, 2}, n = 0;
+      do
+        {
+          Point<3> corner;
+          parts[n][0] = corner;
+          for (unsigned int k = 0; k < 3; ++k)
+            {
+              corner[order[k]] = 1.;
+              parts[n][k + 1]  = corner;
+            }
+          ++n;
+      } while (std::next_permutation(order, order + 3));
+      return parts;
+    }
+
+    /** Calls contribute(cell, place in the unit cube, weight times volume, value) for the points
+     * with which a density is integrated over the own cells. */
     template <typename Function>
     void
-    add_volume_load(const std::set<int>    &regions,
-                    const HexahedralForest &forest,
-                    const HexahedralSpace  &space,
-                    const Function         &contribute,
-                    Vector                 &forces)
+    sample_cells(const mechanics::VolumeDensity &density,
+                 const HexahedralForest         &forest,
+                 const Line                     &line,
+                 const Function                 &contribute)
     {
-      const Line                line(space.degree);
-      const unsigned int        n_points = line.gauss.size();
-      std::vector<Tensor<1, 3>> at_nodes(space.nodes_per_cell);
+      static const auto                 parts = cube_parts();
+      mechanics::VolumeDensity::Samples samples;
+      const unsigned int                n = line.gauss.size();
       for (unsigned int c = 0; c < forest.cells().size(); ++c)
         {
           const HexahedralCell &cell   = forest.cells()[c];
           const int             region = forest.grid().regions[cell.brick];
-          if (regions.count(region) == 0)
+          if (!density.acts_in(region))
             continue;
           const double volume = cell.size[0] * cell.size[1] * cell.size[2];
-          std::fill(at_nodes.begin(), at_nodes.end(), Tensor<1, 3>());
-          for (unsigned int q = 0; q < n_points * n_points * n_points; ++q)
+          if (density.is_constant(region))
             {
-              const unsigned int at[3]
-                = {q % n_points, q / n_points % n_points, q / n_points / n_points};
-              Point<3> unit;
-              double   weight = volume;
-              for (unsigned int d = 0; d < 3; ++d)
+              const Tensor<1, 3> value = density.value(region, Point<3>());
+              for (unsigned int q = 0; q < n * n * n; ++q)
                 {
-                  unit[d] = line.point(at[d]);
-                  weight *= line.gauss.weight(at[d]);
+                  const unsigned int at[3] = {q % n, q / n % n, q / n / n};
+                  Point<3>           unit;
+                  double             weight = volume;
+                  for (unsigned int d = 0; d < 3; ++d)
+                    {
+                      unit[d] = line.point(at[d]);
+                      weight *= line.gauss.weight(at[d]);
+                    }
+                  contribute(c, unit, weight, value);
                 }
-              Tensor<1, 3>                     density;
-              mechanics::SymmetricTensor<2, 3> stress;
-              contribute(region, cell.at(unit), density, stress);
-              for (unsigned int i = 0; i < space.nodes_per_cell; ++i)
+              continue;
+            }
+          for (const auto &part : parts)
+            {
+              std::array<Point<3>, 4> corners;
+              for (unsigned int i = 0; i < 4; ++i)
+                corners[i] = cell.at(part[i]);
+              density.sample(region, corners, samples);
+              for (const auto &point : samples)
                 {
-                  const unsigned int k[3] = {i % line.n, i / line.n % line.n, i / line.n / line.n};
-                  double             v[3];
-                  for (unsigned int d = 0; d < 3; ++d)
-                    v[d] = line.values[at[d]][k[d]];
-                  Tensor<1, 3> gradient;
-                  for (unsigned int d = 0; d < 3; ++d)
-                    gradient[d] = line.derivatives[at[d]][k[d]] / cell.size[d] * v[(d + 1) % 3]
-                                  * v[(d + 2) % 3];
-                  at_nodes[i] += weight * (v[0] * v[1] * v[2] * density + stress * gradient);
+                  Point<3> unit;
+                  for (unsigned int i = 0; i < 4; ++i)
+                    unit += point.b[i] * Tensor<1, 3>(part[i]);
+                  contribute(c, unit, volume / 6. * point.weight, point.value);
                 }
             }
-          for (unsigned int i = 0; i < space.nodes_per_cell; ++i)
-            space.add(forces, space.nodes(c)[i], at_nodes[i]);
         }
+    }
+
+    /** Adds int f . v + int S : grad v, for all functions v; act(value, region, f, S) says what a
+     * density's value amounts to. */
+    template <typename Function>
+    void
+    add_volume_load(const mechanics::VolumeDensity &density,
+                    const HexahedralForest         &forest,
+                    const HexahedralSpace          &space,
+                    const Function                 &act,
+                    Vector                         &forces)
+    {
+      const Line                line(space.degree);
+      std::vector<Tensor<1, 3>> at_nodes(space.nodes_per_cell);
+      unsigned int              current = 0;
+      const auto                finish  = [&](const unsigned int c) {
+        for (unsigned int i = 0; i < space.nodes_per_cell; ++i)
+          space.add(forces, space.nodes(c)[i], at_nodes[i]);
+        std::fill(at_nodes.begin(), at_nodes.end(), Tensor<1, 3>());
+      };
+      sample_cells(
+        density,
+        forest,
+        line,
+        [&](unsigned int c, const Point<3> &unit, double weight, const Tensor<1, 3> &value) {
+          if (c != current)
+            finish(current);
+          current                               = c;
+          const HexahedralCell            &cell = forest.cells()[c];
+          Tensor<1, 3>                     force;
+          mechanics::SymmetricTensor<2, 3> stress;
+          act(value, forest.grid().regions[cell.brick], force, stress);
+          std::array<double, 4> values[3], derivatives[3];
+          for (unsigned int d = 0; d < 3; ++d)
+            mesh::lagrange(space.degree, unit[d], values[d].data(), derivatives[d].data());
+          for (unsigned int i = 0; i < space.nodes_per_cell; ++i)
+            {
+              const unsigned int k[3] = {i % line.n, i / line.n % line.n, i / line.n / line.n};
+              double             v[3];
+              for (unsigned int d = 0; d < 3; ++d)
+                v[d] = values[d][k[d]];
+              Tensor<1, 3> gradient;
+              for (unsigned int d = 0; d < 3; ++d)
+                gradient[d] = derivatives[d][k[d]] / cell.size[d] * v[(d + 1) % 3] * v[(d + 2) % 3];
+              at_nodes[i] += weight * (v[0] * v[1] * v[2] * force + stress * gradient);
+            }
+        });
+      if (!forest.cells().empty())
+        finish(current);
     }
   } // namespace
 
@@ -248,44 +352,38 @@ namespace tetradapt::solve
                const HexahedralSpace        &space)
   {
     using mechanics::SymmetricTensor;
-    Vector forces(space.layout);
-    for (const auto &load : scene.loads)
-      {
-        const std::string what = "Loads/" + load.name;
-        switch (load.type)
-          {
-          case scene::LoadType::traction:
-          case scene::LoadType::pressure:
-            add_side_load(load, forest, space, forces);
-            break;
-          case scene::LoadType::body_force:
-          case scene::LoadType::gravity:
-            {
-              const core::VectorExpression value(load.value, what + "/Value");
-              add_volume_load(
-                mechanics::resolve_regions(load.selector.ids, load.selector.groups, mesh, what),
-                forest,
-                space,
-                [&](int region, const Point<3> &x, Tensor<1, 3> &density, SymmetricTensor<2, 3> &) {
-                  density = value(x);
-                  if (load.type == scene::LoadType::gravity)
-                    density *= materials.parameters(region).density;
-                },
-                forces);
-              break;
-            }
-          case scene::LoadType::nodal_force: // refused with the grid
-          case scene::LoadType::temperature: // all of them together below
-            break;
-          }
-      }
+    Vector                        forces(space.layout);
+    const mechanics::SurfaceLoads surface_loads(scene, mesh);
+    for (unsigned int number = 0; number < scene.loads.size(); ++number)
+      switch (scene.loads[number].type)
+        {
+        case scene::LoadType::traction:
+        case scene::LoadType::pressure:
+          add_side_load(scene.loads[number], number, surface_loads, forest, space, forces);
+          break;
+        case scene::LoadType::body_force:
+        case scene::LoadType::gravity:
+          add_volume_load(
+            materials.body_forces().at(number),
+            forest,
+            space,
+            [](const Tensor<1, 3> &value, int, Tensor<1, 3> &force, SymmetricTensor<2, 3> &) {
+              force = value;
+            },
+            forces);
+          break;
+        case scene::LoadType::nodal_force: // refused with the grid
+        case scene::LoadType::temperature: // all of them together below
+          break;
+        }
     if (materials.has_thermal_strain())
       add_volume_load(
-        std::set<int>(mesh.regions.begin(), mesh.regions.end()),
+        materials.thermal_density(),
         forest,
         space,
-        [&](int region, const Point<3> &x, Tensor<1, 3> &, SymmetricTensor<2, 3> &stress) {
-          stress = materials.law(region).stress(Tensor<2, 3>(materials.thermal_strain(region, x)));
+        [&](const Tensor<1, 3> &value, int region, Tensor<1, 3> &, SymmetricTensor<2, 3> &stress) {
+          stress = materials.law(region).stress(value[0]
+                                                * Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()));
         },
         forces);
     forces.compress(dealii::VectorOperation::add);

@@ -2,7 +2,6 @@
 #include "tetradapt/solve/static_system.h"
 
 #include "tetradapt/mechanics/loads.h"
-#include "tetradapt/mechanics/reactions.h"
 #include "tetradapt/solve/energies.h"
 #include "tetradapt/solve/linear_solver.h"
 #include "tetradapt/solve/mixed_solver.h"
@@ -87,7 +86,12 @@ namespace tetradapt::solve
     {
       space = std::make_unique<DisplacementSpace>(partition, degree, edges.get());
       log.progress("assembling " + std::to_string(space->n_dofs()) + " unknowns");
-      add_up_loads();
+      mechanics::NodalLoads loads
+        = mechanics::assemble_loads(scene, kept ? *kept : materials, *space);
+      forces      = std::move(loads.forces);
+      load_totals = std::move(loads.totals);
+      for (const auto &total : load_totals)
+        load_resultants.push_back(total.resultant);
       solver = std::make_unique<LinearSolver>(LinearModel{partition, *space, tangents, prescribed},
                                               scene.solver,
                                               log);
@@ -96,41 +100,6 @@ namespace tetradapt::solve
           = std::make_unique<MixedSolver>(MixedModel{*space, materials, prescribed, *solver},
                                           scene.solver,
                                           log);
-    }
-
-    /** Sets the forces of all loads together, and the resultant of each. */
-    void
-    add_up_loads()
-    {
-      const mechanics::MaterialMap &stiff = kept ? *kept : materials;
-      scene::Scene                  part; // of which the loads are looked at
-      const NodalValues             thermal = mechanics::nodal_forces(part, stiff, *space);
-      forces                                = thermal;
-      for (const auto &load : scene.loads)
-        {
-          load_resultants.emplace_back();
-          if (load.type == scene::LoadType::temperature)
-            continue; // all of them together are in the thermal forces, which have no resultant
-          part.loads           = {load};
-          const NodalValues of = mechanics::nodal_forces(part, stiff, *space);
-          for (unsigned int node = 0; node < space->n_owned_nodes(); ++node)
-            {
-              const unsigned int         field_node = space->field_node(node);
-              const dealii::Tensor<1, 3> force      = of[field_node] - thermal[field_node];
-              forces[field_node] += force;
-              load_resultants.back().add(position(field_node), force);
-            }
-          load_resultants.back() = mechanics::sum(load_resultants.back(), space->communicator());
-        }
-    }
-
-    dealii::Point<3>
-    position(const unsigned int node) const
-    {
-      if (node < mesh->n_points())
-        return mesh->points[node];
-      const auto &edge = edges->edges[node - mesh->n_points()];
-      return mesh->points[edge[0]] + 0.5 * (mesh->points[edge[1]] - mesh->points[edge[0]]);
     }
 
     /** The unknowns with a value of @p free where they are free, if it is not null,
@@ -164,7 +133,8 @@ namespace tetradapt::solve
     mechanics::TangentField                 tangents;
     std::unique_ptr<DisplacementSpace>      space;
     NodalValues                             forces; ///< of the loads, on the nodes owned
-    std::vector<mechanics::Resultant>       load_resultants;
+    std::vector<mechanics::LoadTotal>       load_totals;
+    std::vector<mechanics::Resultant>       load_resultants; ///< of load_totals
     std::unique_ptr<LinearSolver>           solver;
     std::unique_ptr<MixedSolver>            mixed_solver; ///< mixed form only
   };
@@ -189,6 +159,7 @@ namespace tetradapt::solve
     solution.displacement
       = std::make_shared<mesh::NodalField>(data->mesh, data->degree, data->edges);
     solution.n_dofs = space.n_dofs();
+    solution.loads  = data->load_totals;
     auto &values    = solution.displacement->values;
 
     Vector       x               = data->vector_of(start == nullptr ? nullptr : &start->values, 1.);

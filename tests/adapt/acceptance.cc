@@ -56,8 +56,8 @@ namespace
                                         : 0.5 * solution.energy - solution.external_work,
                                      0.};
         if (i > 0)
-          changes += adapt::compare_energies(before, now, 0.).is_worse() ? " worse" : " better";
-        if (i > 0 && !adapt::compare_energies(now, before, 0.).is_worse())
+          changes += adapt::compare_energies(before, now, 0., 0.).is_worse() ? " worse" : " better";
+        if (i > 0 && !adapt::compare_energies(now, before, 0., 0.).is_worse())
           changes += " BOTH";
         before = now;
         mesh   = std::make_shared<const mesh::TetMesh>(mesh::red_refine(*mesh));
@@ -82,14 +82,25 @@ main(int argc, char *argv[])
   nodal.loads[0].type = scene::LoadType::nodal_force;
   std::cout << adapt::why_energy_cannot_tell(nodal, mesh::make_mesh(nodal, 0, log)) << '\n';
 
-  const auto worse = [](double change, double error, double swept) {
-    return adapt::compare_energies({-2., 0.}, {-2. + change, error}, swept).is_worse() ? "worse"
-                                                                                       : "kept";
+  const auto worse = [](double change, double error, double swept, double of_loads = 0.) {
+    return adapt::compare_energies({-2., 0.}, {-2. + change, error}, swept, of_loads).is_worse()
+             ? "worse"
+             : "kept";
   };
   std::cout << "rise 1e-6: " << worse(1e-6, 0., 0.) << "; rounding: " << worse(1e-11, 0., 0.)
             << "; explained by an algebraic error of 0.002: " << worse(1e-6, 2e-3, 0.)
             << ", of 0.001: " << worse(1e-6, 1e-3, 0.)
             << "; by a boundary that swept 1e-6 of the body: " << worse(5e-6, 0., 1e-6)
             << ", half of that: " << worse(5e-6, 0., 5e-7) << "; fall: " << worse(-1e-6, 0., 0.)
-            << '\n';
+            << "; by loads that changed by 1e-6: " << worse(3e-6, 0., 0., 1e-6)
+            << ", half of that: " << worse(3e-6, 0., 0., 5e-7) << '\n';
+  const auto compared = [](double change, double swept) {
+    return adapt::is_same_problem(change, swept) ? "energies" : "estimates";
+  };
+  std::cout << "compared: " << compared(1e-6, 0.) << " where loads changed by 1e-6, "
+            << compared(1e-3, 0.) << " by 1e-3, " << compared(1e-3, 1e-3)
+            << " if the boundary swept as much\n";
+  std::cout << "estimates of 1, then 1.05: "
+            << (adapt::is_worse_estimate(1., 1.05) ? "worse" : "kept")
+            << ", 1.2: " << (adapt::is_worse_estimate(1., 1.2) ? "worse" : "kept") << '\n';
 }

@@ -43,12 +43,19 @@ namespace
       const mechanics::DisplacementSpace space(partition,
                                                degree,
                                                degree == 2 ? &field.edges() : nullptr);
-      const Forces                       local = mechanics::nodal_forces(scene, materials, space);
+      const mechanics::NodalLoads        loads = mechanics::assemble_loads(scene, materials, space);
+      const Forces                      &local = loads.forces;
       forces.resize(field.n_nodes());
       for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
         forces[space.field_node(node)] = local[space.field_node(node)];
       for (auto &force : forces)
         force = dealii::Utilities::MPI::sum(force, MPI_COMM_WORLD);
+      const mechanics::LoadTotal &total = loads.totals.at(0);
+      // Temperatures have no resultant.
+      if (scene.loads[0].type != LoadType::temperature && first_rank
+          && !((total.resultant.force - sum()).norm() <= 1e-12 * (1. + sum().norm())
+               && (total.resultant.moment - moment()).norm() <= 1e-12 * (1. + moment().norm())))
+        std::cout << "  WRONG resultant " << total.resultant.force << '\n';
     }
 
     Tensor<1, 3>

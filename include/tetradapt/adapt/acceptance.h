@@ -44,15 +44,32 @@ namespace tetradapt::adapt
   };
 
   /**
+   * Whether two cycles solve the same problem, so that energies can be compared: the change of
+   * loads or volume is within what moving the boundary explains, and quadrature.
+   * @param change see change_of_problem(). @param swept as for compare_energies().
+   */
+  bool
+  is_same_problem(double change, double swept);
+
+  /**
    * Compares a cycle with the one before. Allowed are rounding, the squares of the algebraic
-   * errors, and what a change of the body's shape may do: Pi is an integral over the
+   * errors, twice the relative change of the loads (Pi is quadratic in them), and what a change
+   * of the body's shape may do: Pi is an integral over the
    * body, and moving the boundary through the part s of its volume changes it by about
    * s |Pi|, three times that where stresses are concentrated.
    *
    * @param swept part of the body's volume that projecting the boundary swept.
+   * @param change relative, of loads and volume.
    */
   EnergyTest
-  compare_energies(const CycleEnergy &before, const CycleEnergy &after, double swept);
+  compare_energies(const CycleEnergy &before,
+                   const CycleEnergy &after,
+                   double             swept,
+                   double             change);
+
+  /** The same by the norms of refinement indicators, which say less: a tenth more is allowed. */
+  bool
+  is_worse_estimate(double before, double after);
 } // namespace tetradapt::adapt
 
 #endif

@@ -30,10 +30,11 @@ namespace tetradapt::adapt
    * Runs a scene: solve, compare, estimate, refine, until a stopping rule holds.
    * Does only what the plan lists as needed.
    *
-   * An adaptive cycle whose potential energy is not below that of the cycle before is
-   * rejected: another mesh is made from the mesh before, at first refined more strongly,
-   * then uniformly. A rejected cycle stays in the records, without errors. Every rank of the
-   * communicator makes one and calls run(); observers are told on the first rank only.
+   * An adaptive cycle whose potential energy is not below that of the cycle before (where loads or
+   * volume changed, whose estimate is above) is rejected: another mesh is made from the mesh
+   * before, at first refined more strongly, then uniformly. A rejected cycle stays in the records,
+   * without errors. Every rank of the communicator makes one and calls run(); observers are told on
+   * the first rank only.
    */
   class Driver
   {
@@ -72,15 +73,25 @@ namespace tetradapt::adapt
     make_reference();
     Cycle
     solve_cycle(unsigned int number);
-    /** Whether the cycle is worse than the one that its mesh was made from. */
     void
     warn_of_flat_cells() const;
     /** @throws core::NumericalError if the solution is not finite or its energy leaves the
      * range in which errors can be told. */
     void
     check_range(const CycleRecord &record) const;
+    /** Whether the loads or the volume changed too much since the accepted cycle for energies
+     * to tell which mesh is better. */
     bool
-    is_rejected(Cycle &cycle);
+    compares_estimates(const Cycle &cycle) const;
+    /** Whether the cycle is worse than the one that its mesh was made from. */
+    bool
+    is_rejected_by_energy(Cycle &cycle);
+    /** The same, by the refinement indicator; after compare_and_estimate(). */
+    bool
+    is_rejected_by_estimate(Cycle &cycle);
+    /** Says why a cycle is worse. @return whether it is rejected. */
+    bool
+    reject(Cycle &cycle, const std::string &reason);
     void
     compare_and_estimate(Cycle &cycle);
     void

@@ -2,6 +2,7 @@
 #ifndef tetradapt_adapt_observer_h
 #define tetradapt_adapt_observer_h
 
+#include "tetradapt/mechanics/loads.h"
 #include "tetradapt/mechanics/material_map.h"
 #include "tetradapt/mesh/nodal_field.h"
 #include "tetradapt/scene/scene.h"
@@ -77,7 +78,17 @@ namespace tetradapt::adapt
   enum class Acceptance
   {
     accepted,
-    rejected ///< its energy was worse than the one before; another mesh followed
+    rejected ///< its energy, or its estimate, was worse than the one before; another mesh followed
+  };
+
+  /** What one load of the scene amounts to in a cycle. */
+  struct LoadRecord
+  {
+    std::string          name;
+    mechanics::LoadTotal total;
+    /** Change of its force since the first cycle, relative to int |density|: of a boundary that
+     * is projected, or of what quadrature left. */
+    double drift = 0.;
   };
 
   /** The figures of one cycle. What a scene does not have stays empty. */
@@ -114,6 +125,7 @@ namespace tetradapt::adapt
     MeshRecord                  mesh;
     /** Reactions and loads, and how they balance. */
     std::optional<solve::Equilibrium> equilibrium;
+    std::vector<LoadRecord>           loads; ///< in the order of the scene
     /** What is in each region, and the largest displacement and stress there. */
     std::vector<mechanics::RegionFigures> regions;
     double seconds_mesh = 0., seconds_solve = 0., seconds_estimate = 0., seconds_total = 0.;

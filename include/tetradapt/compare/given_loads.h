@@ -2,9 +2,8 @@
 #ifndef tetradapt_compare_given_loads_h
 #define tetradapt_compare_given_loads_h
 
-#include "tetradapt/core/surface_expression.h"
 #include "tetradapt/mechanics/material_map.h"
-#include "tetradapt/mesh/true_surface.h"
+#include "tetradapt/mechanics/surface_loads.h"
 
 namespace tetradapt::compare
 {
@@ -46,7 +45,7 @@ namespace tetradapt::compare
     bool
     has_traction(unsigned int face) const
     {
-      return !patches[mesh.faces[face].patch].loads.empty();
+      return !surface_loads.on_face(face).empty();
     }
 
     /** Sum of the tractions and pressures on boundary face @p face, force per area, as they
@@ -62,13 +61,46 @@ namespace tetradapt::compare
 
     /** The body's surface; made when it is first asked for. Not collective. */
     const mesh::TrueSurface &
-    surface() const;
+    surface() const
+    {
+      return surface_loads.surface();
+    }
+
+    /** Calls @p visit(barycentric coordinates, weight, traction) for the points with which the
+     * tractions and pressures on boundary face @p face are integrated. The weights of each load
+     * sum to one; several loads have points of their own. */
+    template <typename Visitor>
+    void
+    sample_face(unsigned int face, const Visitor &visit) const;
+
+    /** The same for the body forces in @p cell. */
+    template <typename Visitor>
+    void
+    sample_cell(unsigned int cell, const Visitor &visit) const;
+
+    /** Points and weights that are good for functions of the tractions and pressures on a face,
+     * such as the square of what a stress misses: those of the load that needs most. The values
+     * are that load's only. Valid until the next call. */
+    const mechanics::SurfaceLoads::Samples &
+    face_points(unsigned int face) const;
+
+    /** The same for the body forces in a cell. */
+    const mechanics::VolumeDensity::Samples &
+    cell_points(unsigned int cell) const;
+
+    /** Whether the tractions and pressures on a face are the same at all of its points. */
+    bool
+    is_constant_on(unsigned int face) const;
+
+    /** Whether the body forces in a cell are the same at all of its points. */
+    bool
+    is_constant_in(unsigned int cell) const;
 
     /** Whether a body force or weight acts anywhere. */
     bool
     has_body_force() const
     {
-      return !body_forces.empty();
+      return !materials.body_forces().empty();
     }
 
     /** Sum of the body forces and the weight at a point of @p cell, force per volume. */
@@ -76,42 +108,43 @@ namespace tetradapt::compare
     body_force(unsigned int cell, const Point<3> &point) const;
 
   private:
-    /** An expression, evaluated once where it is a constant. */
-    struct Value
-    {
-      Value(const std::array<std::string, 3> &texts, const std::string &what);
-      Tensor<1, 3>
-      operator()(const Point<3> &point, const Tensor<1, 3> &normal = Tensor<1, 3>()) const
-      {
-        return is_constant ? constant : expression(point, normal);
-      }
-      core::SurfaceExpression expression;
-      bool                    is_constant, uses_normal;
-      Tensor<1, 3>            constant;
-    };
-    struct FaceLoad
-    {
-      unsigned int value; ///< index into values
-      bool         is_pressure;
-    };
     struct PatchConditions
     {
-      unsigned char         held = 0, known = 7;
-      std::vector<FaceLoad> loads;
-    };
-    struct BodyForce
-    {
-      unsigned int          value;   ///< index into values
-      std::map<int, double> factors; ///< per region: 1, or the density; others: none
+      unsigned char held = 0, known = 7;
     };
 
-    const mesh::TetMesh                       &mesh;
-    scene::MeshParameters                      mesh_parameters; ///< for the surface
-    std::vector<Value>                         values;
-    std::vector<PatchConditions>               patches; ///< as TetMesh::patches
-    std::vector<BodyForce>                     body_forces;
-    mutable std::unique_ptr<mesh::TrueSurface> true_surface;
+    const mesh::TetMesh                      &mesh;
+    const mechanics::MaterialMap             &materials;
+    mechanics::SurfaceLoads                   surface_loads;
+    std::vector<PatchConditions>              patches;                    ///< as TetMesh::patches
+    mutable mechanics::SurfaceLoads::Samples  face_samples, most_on_face; ///< work space
+    mutable mechanics::VolumeDensity::Samples cell_samples, most_in_cell;
   };
+
+  template <typename Visitor>
+  void
+  GivenLoads::sample_face(const unsigned int face, const Visitor &visit) const
+  {
+    for (const unsigned int load : surface_loads.on_face(face))
+      {
+        surface_loads.sample(load, face, face_samples);
+        for (const auto &point : face_samples)
+          visit(point.b, point.weight, point.value);
+      }
+  }
+
+  template <typename Visitor>
+  void
+  GivenLoads::sample_cell(const unsigned int cell, const Visitor &visit) const
+  {
+    for (const auto &force : materials.body_forces())
+      if (force.second.acts_in(mesh.regions[cell]))
+        {
+          force.second.sample(mesh, cell, cell_samples);
+          for (const auto &point : cell_samples)
+            visit(point.b, point.weight, point.value);
+        }
+  }
 } // namespace tetradapt::compare
 
 #endif

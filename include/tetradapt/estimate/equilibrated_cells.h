@@ -6,6 +6,8 @@
 #include "tetradapt/mesh/nodal_field.h"
 #include "tetradapt/scene/scene.h"
 
+#include <deal.II/lac/full_matrix.h>
+
 namespace tetradapt::estimate
 {
   using dealii::Point;
@@ -33,6 +35,10 @@ namespace tetradapt::estimate
     double force_oscillation;   ///< L2 norm of the body force minus its quadratic part
     double thermal_oscillation; ///< energy norm of the thermal strain minus its quadratic part
   };
+
+  /** b_i, then 4 b_i b_k in the order of mesh::edge_vertices. */
+  std::array<double, 10>
+  quadratic_functions(const mesh::Barycentric &b);
 
   /** Integrals over face @p f of the cell of its traction stress * outer normal
    * times l_0, l_1, l_2, 4 l_0 l_1, 4 l_1 l_2, 4 l_2 l_0 of its corners. */
@@ -65,6 +71,11 @@ namespace tetradapt::estimate
 
     void
     compute(unsigned int cell, CellState &state) const;
+
+    /** The same without the stress; in mixed form, without thermal_oscillation, which is zero then,
+     * as a thermal strain has no finite stress in a fully incompressible material. */
+    void
+    compute_loads(unsigned int cell, CellState &state) const;
 
     /**
      * Puts a cell into a lane of @p batch: its shape and material, and as loads what
@@ -101,19 +112,15 @@ namespace tetradapt::estimate
     }
 
   private:
-    struct VolumeLoad
-    {
-      core::VectorExpression value;
-      double                 factor;
-    };
     struct Region
     {
       const mechanics::ConstitutiveLaw *law;
       double                            compliance[6][6]; ///< xx, yy, zz, yz, zx, xy
       double                            largest_compliance;
       Tensor<1, 3>                      constant_force;
-      std::vector<VolumeLoad>           variable_forces;
       bool                              thermal;
+
+      std::vector<const mechanics::VolumeDensity *> variable_forces;
     };
 
     const Region &
@@ -131,18 +138,22 @@ namespace tetradapt::estimate
     add_thermal_stress(unsigned int cell, const Region &region, CellState &state) const;
     void
     compute_force(unsigned int cell, const Region &region, CellState &state) const;
-    Point<3>
-    position(unsigned int cell, unsigned int q) const;
+    void
+    add_variable_force(unsigned int                    cell,
+                       const mechanics::VolumeDensity &force,
+                       CellState                      &state) const;
+    /** The quadratic polynomial with given means of products with the functions, as
+     * coefficients of these. */
+    template <typename Value>
+    std::array<Value, 10>
+    polynomial_with(const std::array<Value, 10> &means) const;
 
-    const mesh::NodalField             &u_h;
-    const mesh::TetMesh                &mesh;
-    const mechanics::MaterialMap       &materials;
-    std::map<int, Region>               regions;
-    std::vector<mesh::Barycentric>      points;    ///< quadrature in a cell
-    std::vector<double>                 weights;   ///< sum to one
-    std::vector<std::array<double, 10>> functions; ///< at the points
-    /** Coefficients of the quadratic polynomial that fits values at the points. */
-    std::vector<std::array<double, 10>> projection;
+    const mesh::NodalField                   &u_h;
+    const mesh::TetMesh                      &mesh;
+    const mechanics::MaterialMap             &materials;
+    std::map<int, Region>                     regions;
+    dealii::FullMatrix<double>                inverse_products; ///< of the functions' mean products
+    mutable mechanics::VolumeDensity::Samples samples;          ///< work space
   };
 } // namespace tetradapt::estimate
 

@@ -22,7 +22,7 @@ namespace tetradapt::estimate
   };
 
   /** The loads and supports of all listed faces of @p mesh, from the names on their
-   * patches; integrated as in mechanics::nodal_forces(). */
+   * patches; integrated as in mechanics::assemble_loads(). */
   std::vector<FaceLoad>
   face_loads(const scene::Scene &scene, const mesh::TetMesh &mesh);
 } // namespace tetradapt::estimate

@@ -4,27 +4,57 @@
 
 #include "tetradapt/mechanics/displacement_space.h"
 #include "tetradapt/mechanics/material_map.h"
+#include "tetradapt/mechanics/resultant.h"
 
 namespace tetradapt::mechanics
 {
+  /** What one load of the scene amounts to on a mesh. */
+  struct LoadTotal
+  {
+    Resultant resultant;
+    double    magnitude = 0.; ///< int |density|, a force; zero for temperatures and nodal forces
+    /** What quadrature may have left out of integrals of the density, a force: the sum over
+     * faces or cells of what DensitySampler expects there. */
+    double remainder = 0.;
+    /** Empty, or a sentence about how the load was looked at. */
+    std::string remark;
+
+    /** Whether the load is known well enough for a bound to be called guaranteed: zero or far
+     * below what any error is measured to. */
+    bool
+    is_converged() const
+    {
+      return remainder <= 1e-4 * magnitude;
+    }
+  };
+
+  /** The loads of a scene on the nodes of a mesh. */
+  struct NodalLoads
+  {
+    /** One a field node, complete on the nodes that this rank owns. */
+    std::vector<dealii::Tensor<1, 3>> forces;
+    std::vector<LoadTotal>            totals; ///< one a load of the scene, the same on every rank
+  };
+
   /**
-   * Consistent nodal forces of the scene's loads, one a field node: integrals of
+   * Consistent nodal forces of the scene's loads: integrals of
    * the shape functions times tractions and pressures over the patches that
-   * carry a load's name, body forces, weight, and int B^T C eps_thermal. Complete
-   * on the nodes that this rank owns.
+   * carry a load's name, body forces, weight, and int B^T C eps_thermal.
    *
-   * Faces are integrated with 7 points (degree 5), cells with 14 (degree 5 for
-   * the rule in use); constants are integrated exactly.
+   * Densities are sampled as SurfaceLoads and VolumeDensity say: constants are integrated
+   * exactly, other expressions adaptively, whatever the mesh.
    *
    * LoadType::nodal_force is no integral: its value acts at every point of the mesh on
    * the chosen faces (with degree 2 at the vertices only). The total grows with the number
    * of these points, so that another mesh is another problem, whose energies cannot be
    * compared.
+   *
+   * Collective.
    */
-  std::vector<dealii::Tensor<1, 3>>
-  nodal_forces(const scene::Scene      &scene,
-               const MaterialMap       &materials,
-               const DisplacementSpace &space);
+  NodalLoads
+  assemble_loads(const scene::Scene      &scene,
+                 const MaterialMap       &materials,
+                 const DisplacementSpace &space);
 } // namespace tetradapt::mechanics
 
 #endif

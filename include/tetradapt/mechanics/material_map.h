@@ -4,6 +4,7 @@
 
 #include "tetradapt/core/expression.h"
 #include "tetradapt/mechanics/constitutive_law.h"
+#include "tetradapt/mechanics/volume_density.h"
 #include "tetradapt/mesh/tet_mesh.h"
 #include "tetradapt/scene/scene.h"
 
@@ -25,8 +26,8 @@ namespace tetradapt::mechanics
                   const std::string              &what);
 
   /**
-   * The material of every region, and the thermal strain that the scene's
-   * temperature loads cause there. Made once a scene; region ids survive
+   * The material of every region, the thermal strain that the scene's temperature
+   * loads cause there, and its body forces. Made once a scene; region ids survive
    * remeshing, so it serves every mesh of the run and the reference alike.
    */
   class MaterialMap
@@ -65,20 +66,42 @@ namespace tetradapt::mechanics
 
     /** Thermal strain alpha T(x) I at @p point of @p region; zero without one. */
     SymmetricTensor<2, 3>
-    thermal_strain(int region, const dealii::Point<3> &point) const;
+    thermal_strain(int region, const dealii::Point<3> &point) const
+    {
+      return thermal ? temperatures.value(region, point)[0] * dealii::unit_symmetric_tensor<3>()
+                     : SymmetricTensor<2, 3>();
+    }
+
+    /** The linear thermal strain alpha T, in the first component, for integrals over cells. */
+    const VolumeDensity &
+    thermal_density() const
+    {
+      return temperatures;
+    }
+
+    /** The body forces and weights, by their numbers among the scene's loads. */
+    const std::map<unsigned int, VolumeDensity> &
+    body_forces() const
+    {
+      return forces;
+    }
 
   private:
     struct Entry
     {
       const scene::MaterialParameters *parameters;
       std::shared_ptr<ConstitutiveLaw> law;
-      std::vector<core::Expression>    temperatures;
     };
     const Entry &
     entry(int region) const;
 
+    void
+    add_loads(const scene::Scene &scene, const mesh::TetMesh &mesh);
+
     std::vector<scene::MaterialParameters> materials;
     std::map<int, Entry>                   entries;
+    VolumeDensity                          temperatures;
+    std::map<unsigned int, VolumeDensity>  forces;
     bool                                   thermal = false;
     bool                                   mixed   = false;
   };

@@ -102,6 +102,9 @@ namespace tetradapt::scene
     /** Expressions in x, y, z, t: three for vectors, one (the first) for
      * pressure and temperature. */
     std::array<std::string, 3> value{{"0", "0", "0"}};
+    /** Size of the smallest thing that the value may show: a peak, a patch, half a wave. The
+     * value is looked at with this spacing; 0: a hundredth of the body's size. */
+    double smallest_feature = 0.;
 
     void
     declare(dealii::ParameterHandler &prm) const;

@@ -4,6 +4,7 @@
 
 #include "tetradapt/core/log.h"
 #include "tetradapt/mechanics/energy_norm.h"
+#include "tetradapt/mechanics/loads.h"
 #include "tetradapt/mechanics/material_map.h"
 #include "tetradapt/mesh/nodal_field.h"
 #include "tetradapt/scene/scene.h"
@@ -31,9 +32,12 @@ namespace tetradapt::solve
      * temperatures act. */
     mechanics::EnergyNorm norm;
     /** F(u_h): tractions, body forces and thermal loads on the displacement. */
-    double       external_work = 0.;
-    unsigned int iterations    = 0; ///< 0: direct solver
-    std::string  solver;            ///< what solved it, for the log
+    double external_work = 0.;
+    /** What each load of the scene amounts to on this mesh, and how well it is known. */
+    std::vector<mechanics::LoadTotal> loads;
+
+    unsigned int iterations = 0; ///< 0: direct solver
+    std::string  solver;         ///< what solved it, for the log
     /** Sum of the lengths of the nodal forces that the solver is given at free unknowns: of loads,
      * thermal strain and prescribed displacements. Its tolerance is relative to them. */
     double load_magnitude = 0.;

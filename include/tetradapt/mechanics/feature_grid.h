@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_mechanics_feature_grid_h
+#define tetradapt_mechanics_feature_grid_h
+
+#include <deal.II/base/point.h>
+
+#include <functional>
+#include <vector>
+
+namespace tetradapt::mechanics
+{
+  using dealii::Point;
+  using dealii::Tensor;
+
+  /**
+   * Where in a box a function varies so fast that a quadrature rule on large cells may miss it:
+   * jumps, peaks, short waves. The function is evaluated once, on a regular grid that does not
+   * depend on any mesh; its second differences over one and over four steps tell.
+   */
+  class FeatureGrid
+  {
+  public:
+    /** Evaluates @p function at the grid's nodes in the box from @p lower to @p upper, which is
+     * widened by a step on all sides. The step is @p step, or as much as @p most_nodes nodes
+     * allow. Where the function throws core::InputError (outside of the body it need not have a
+     * value), the grid says that it varies. */
+    FeatureGrid(const std::function<Tensor<1, 3>(const Point<3> &)> &function,
+                const Point<3>                                      &lower,
+                const Point<3>                                      &upper,
+                double                                               step,
+                std::size_t                                          most_nodes);
+
+    /** The step that is used; larger than the one asked for if that took too many nodes. */
+    double
+    step() const
+    {
+      return used_step;
+    }
+
+    /** How long parts of cells in a box may be for nothing to be missed: one step, four
+     * steps, or infinity. One step outside of the grid. */
+    double
+    part_size(const Point<3> &lower, const Point<3> &upper) const;
+
+    /** Number of the grid's boxes in which a part may have one step only. */
+    std::size_t
+    n_fine_boxes() const;
+
+    /** Mean of |function| at the nodes. */
+    double
+    mean() const
+    {
+      return mean_size;
+    }
+
+  private:
+    /** Sums of marks over all boxes with lower numbers, so that the marks in any
+     * range are counted by eight numbers. */
+    using Counts = std::vector<unsigned int>;
+
+    std::size_t
+    node(unsigned int i, unsigned int j, unsigned int k) const
+    {
+      return (std::size_t(k) * n[1] + j) * n[0] + i;
+    }
+    Counts
+    count(const std::vector<char> &marked) const;
+    bool
+    any(const Counts                      &counts,
+        const std::array<unsigned int, 3> &first,
+        const std::array<unsigned int, 3> &last) const;
+
+    Point<3>                    origin;
+    double                      used_step = 0., mean_size = 0.;
+    std::array<unsigned int, 3> n{}; ///< nodes in each direction
+    Counts                      fine, coarse;
+  };
+} // namespace tetradapt::mechanics
+
+#endif

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/mechanics/surface_loads.h"
+
+#include "tetradapt/core/polynomial_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace tetradapt::mechanics
+{
+  namespace
+  {
+    constexpr double default_spacing = 0.01; ///< of the body's diagonal
+    /** Parts of faces are not cut below this part of the spacing, nor do they take more
+     * evaluations than a face's share and this. */
+    constexpr double        finest         = 1. / 64.;
+    constexpr unsigned long evaluations_of = 4000;
+
+    std::array<std::string, 3>
+    texts_of(const scene::LoadParameters &load)
+    {
+      return load.type == scene::LoadType::pressure
+               ? std::array<std::string, 3>{{load.value[0], "0", "0"}}
+               : load.value;
+    }
+  } // namespace
+
+  struct SurfaceLoads::Load
+  {
+    explicit Load(const scene::LoadParameters &load)
+      : name("Loads/" + load.name), texts(texts_of(load)), value(texts, name + "/Value"),
+        is_pressure(load.type == scene::LoadType::pressure), is_constant(value.is_constant()),
+        uses_normal(value.uses_normal()),
+        is_polynomial(std::all_of(texts.begin(), texts.end(), core::is_polynomial)),
+        smallest_feature(load.smallest_feature)
+    {
+      if (is_constant)
+        constant = value(Point<3>(), Tensor<1, 3>());
+    }
+
+    Tensor<1, 3>
+    at(const Point<3> &point, const Tensor<1, 3> &normal) const
+    {
+      return is_constant ? constant : value(point, normal);
+    }
+
+    std::string                name;
+    std::array<std::string, 3> texts;
+    core::SurfaceExpression    value;
+    bool                       is_pressure, is_constant, uses_normal, is_polynomial;
+    double                     smallest_feature;
+    Tensor<1, 3>               constant;
+    /** Made when they are first needed. */
+    mutable std::unique_ptr<SamplingRules> rules;
+    mutable double                         area = 0., spacing = 0.;
+  };
+
+  SurfaceLoads::SurfaceLoads(const scene::Scene &scene, const mesh::TetMesh &mesh)
+    : mesh(mesh), mesh_parameters(scene.mesh), on_patch(mesh.patches.size())
+  {
+    for (unsigned int i = 0; i < scene.loads.size(); ++i)
+      {
+        const auto &load = scene.loads[i];
+        if (load.type != scene::LoadType::traction && load.type != scene::LoadType::pressure)
+          continue;
+        loads.emplace(i, std::make_unique<Load>(load));
+        const std::string selection = "Loads/" + load.name;
+        for (unsigned int p = 0; p < mesh.patches.size(); ++p)
+          {
+            const auto &names = mesh.patches[p].selections;
+            if (std::find(names.begin(), names.end(), selection) != names.end())
+              on_patch[p].push_back(i);
+          }
+      }
+  }
+
+  SurfaceLoads::~SurfaceLoads() = default;
+
+  Tensor<1, 3>
+  SurfaceLoads::traction(const unsigned int  number,
+                         const unsigned int  face,
+                         const Point<3>     &point,
+                         const Tensor<1, 3> &normal) const
+  {
+    const Load        &load  = *loads.at(number);
+    const Tensor<1, 3> value = load.uses_normal ? load.at(point, surface().at(face, point).normal)
+                                                : load.at(point, Tensor<1, 3>());
+    return load.is_pressure ? -value[0] * normal : value;
+  }
+
+  Tensor<1, 3>
+  SurfaceLoads::surface_traction(const unsigned int number, const mesh::SurfacePoint &at) const
+  {
+    const Load        &load  = *loads.at(number);
+    const Tensor<1, 3> value = load.at(at.point, at.normal);
+    return load.is_pressure ? -value[0] * at.normal : value;
+  }
+
+  bool
+  SurfaceLoads::is_constant(const unsigned int load) const
+  {
+    return loads.at(load)->is_constant;
+  }
+
+  Tensor<1, 3>
+  SurfaceLoads::constant_traction(const unsigned int number, const Tensor<1, 3> &normal) const
+  {
+    const Load &load = *loads.at(number);
+    return load.is_pressure ? -load.constant[0] * normal : load.constant;
+  }
+
+  SamplingRules
+  SurfaceLoads::make_rules(const Load &load) const
+  {
+    std::vector<unsigned int> faces;
+    for (unsigned int f = 0; f < mesh.faces.size(); ++f)
+      for (const unsigned int number : on_face(f))
+        if (loads.at(number).get() == &load)
+          {
+            faces.push_back(f);
+            load.area += mesh::face_area_vector(mesh, mesh.faces[f]).norm();
+          }
+    const auto   box    = mesh::bounding_box(mesh);
+    const double wanted = load.smallest_feature > 0.
+                            ? load.smallest_feature
+                            : default_spacing * box.first.distance(box.second);
+    // Two triangles, with 13 points each, a square of that spacing.
+    load.spacing = std::max(wanted, std::sqrt(26. * load.area / most_evaluations));
+
+    SamplingRules rules;
+    rules.look   = load.is_polynomial ? std::numeric_limits<double>::infinity() : load.spacing;
+    rules.finest = finest * load.spacing;
+    // How large it is: from the points of the basic rule on faces of the mesh, or on parts of
+    // them as small as the spacing.
+    double sum = 0.;
+    for (const unsigned int f : faces)
+      {
+        const auto             &v    = mesh.faces[f].vertices;
+        const Tensor<1, 3>      area = mesh::face_area_vector(mesh, mesh.faces[f]);
+        const double            size = area.norm();
+        std::array<Point<3>, 3> x{{mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]}};
+        const double            longest
+          = std::max({x[0].distance(x[1]), x[1].distance(x[2]), x[2].distance(x[0])});
+        const auto n
+          = load.is_polynomial
+              ? 1u
+              : std::min(100000u, static_cast<unsigned int>(std::ceil(longest / load.spacing)));
+        // The centroids of n^2 equal parts.
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = 0; i + j < n; ++j)
+            for (unsigned int turned = 0; turned < (i + j + 1 < n ? 2u : 1u); ++turned)
+              {
+                const double       shift = turned == 0 ? 1. / 3. : 2. / 3.;
+                const double       s = (i + shift) / n, t = (j + shift) / n;
+                const Point<3>     p = x[0] + s * (x[1] - x[0]) + t * (x[2] - x[0]);
+                const Tensor<1, 3> normal
+                  = load.uses_normal ? surface().at(f, p).normal : area / size;
+                sum += size / (double(n) * n) * load.at(p, normal).norm();
+              }
+      }
+    rules.mean = load.area > 0. ? sum / load.area : 0.;
+    return rules;
+  }
+
+  double
+  SurfaceLoads::sample(const unsigned int number, const unsigned int face, Samples &samples) const
+  {
+    const double error = sample_compactly(number, face, samples);
+    sampler.expand(samples);
+    return error;
+  }
+
+  double
+  SurfaceLoads::sample_compactly(const unsigned int number,
+                                 const unsigned int face,
+                                 Samples           &samples) const
+  {
+    const Load        &load = *loads.at(number);
+    const auto        &v    = mesh.faces[face].vertices;
+    const Tensor<1, 3> area = mesh::face_area_vector(mesh, mesh.faces[face]);
+    const double       size = area.norm();
+    if (load.is_constant)
+      {
+        const Tensor<1, 3> value = constant_traction(number, area / size);
+        samples.assign(1, {{{1. / 3., 1. / 3., 1. / 3.}}, 1., value});
+        return 0.;
+      }
+    const Tensor<1, 3> normal = area / size;
+    const auto density = [&](const Point<3> &x) { return traction(number, face, x, normal); };
+    const std::array<Point<3>, 3> corners{
+      {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]}};
+    if (load.uses_normal && load.is_polynomial)
+      {
+        // The normal varies like the surface: the basic rule does, as for its shape.
+        sampler.sample_basic(corners, density, samples);
+        return 0.;
+      }
+    return sampler.sample(corners, density, rules_for(load, size), samples);
+  }
+
+  double
+  SurfaceLoads::sample_triangle(const unsigned int             number,
+                                const std::array<Point<3>, 3> &corners,
+                                const Tensor<1, 3>            &normal,
+                                Samples                       &samples) const
+  {
+    const Load  &load = *loads.at(number);
+    const double area
+      = 0.5 * cross_product_3d(corners[1] - corners[0], corners[2] - corners[0]).norm();
+    return sampler.sample(
+      corners,
+      [&](const Point<3> &x) {
+        const Tensor<1, 3> value = load.at(x, normal);
+        return load.is_pressure ? -value[0] * normal : value;
+      },
+      rules_for(load, area),
+      samples);
+  }
+
+  SamplingRules
+  SurfaceLoads::rules_for(const Load &load, const double area) const
+  {
+    if (load.rules == nullptr)
+      load.rules = std::make_unique<SamplingRules>(make_rules(load));
+    SamplingRules rules = *load.rules;
+    rules.budget = evaluations_of + static_cast<unsigned long>(most_evaluations * area / load.area);
+    return rules;
+  }
+
+  const mesh::TrueSurface &
+  SurfaceLoads::surface() const
+  {
+    if (true_surface == nullptr)
+      true_surface = std::make_unique<mesh::TrueSurface>(mesh_parameters, mesh);
+    return *true_surface;
+  }
+
+  std::string
+  SurfaceLoads::remark(const unsigned int number) const
+  {
+    const Load &load = *loads.at(number);
+    if (load.rules == nullptr || load.is_polynomial)
+      return "";
+    const auto   box    = mesh::bounding_box(mesh);
+    const double wanted = load.smallest_feature > 0.
+                            ? load.smallest_feature
+                            : default_spacing * box.first.distance(box.second);
+    if (load.spacing <= 1.0001 * wanted)
+      return "";
+    std::ostringstream text;
+    text << load.name << ": the value is looked at with a spacing of " << load.spacing
+         << " instead of " << wanted << ", as " << most_evaluations << " evaluations allow.";
+    return text.str();
+  }
+} // namespace tetradapt::mechanics
