@@ -55,7 +55,7 @@ namespace tetradapt::compare
   {
     Tensor<1, 3> sum;
     for (const auto &force : materials.body_forces())
-      sum += force.second.value(mesh.regions[cell], point);
+      sum += force.second->value(mesh.regions[cell], point);
     return sum;
   }
 
@@ -77,9 +77,9 @@ namespace tetradapt::compare
   {
     most_in_cell.clear();
     for (const auto &force : materials.body_forces())
-      if (force.second.acts_in(mesh.regions[cell]))
+      if (force.second->acts_in(mesh.regions[cell]))
         {
-          force.second.sample(mesh, cell, cell_samples);
+          force.second->sample(mesh, cell, cell_samples);
           if (cell_samples.size() > most_in_cell.size())
             most_in_cell.swap(cell_samples);
         }
@@ -100,7 +100,7 @@ namespace tetradapt::compare
   {
     const auto &forces = materials.body_forces();
     return std::all_of(forces.begin(), forces.end(), [&](const auto &force) {
-      return force.second.is_constant(mesh.regions[cell]);
+      return force.second->is_constant(mesh.regions[cell]);
     });
   }
 } // namespace tetradapt::compare

@@ -44,10 +44,10 @@ namespace tetradapt::estimate
       {
         region.thermal = materials.has_thermal_strain() && materials.thermal_density().acts_in(id);
         for (const auto &force : materials.body_forces())
-          if (force.second.is_constant(id))
-            region.constant_force += force.second.value(id, Point<3>());
+          if (force.second->is_constant(id))
+            region.constant_force += force.second->value(id, Point<3>());
           else
-            region.variable_forces.push_back(&force.second);
+            region.variable_forces.push_back(force.second.get());
       }
   }
 

@@ -54,16 +54,15 @@ namespace tetradapt::mechanics
   {
     const std::array<Point<3>, n> &corners;
     const Function                &density;
-    const SamplingRules           &rules;
+    const SamplingRules<n>        &rules;
     Samples                       &samples;
-    unsigned long                  n_evaluations = 0;
     Tensor<1, 3>                   change; ///< of integrals by the last cut that was allowed
-    double                         rough = 0.;
+    double                         rough   = 0.;
+    bool                           unknown = false; ///< parts without a coarser one to compare
 
     Tensor<1, 3>
     operator()(const std::array<double, n> &b)
     {
-      ++n_evaluations;
       return density(position<n>(corners, b));
     }
   };
@@ -77,7 +76,8 @@ namespace tetradapt::mechanics
     std::array<Tensor<1, 3>, n_functions>       polynomial;
     Tensor<1, 3>                                mean;
     double   distance = 0., largest = 0.; ///< from the polynomial; value
-    double   size = 0.;                   ///< longest edge
+    double   mean_size = 0.;              ///< of |value|
+    double   size      = 0.;              ///< longest edge
     Point<3> lower, upper;
   };
 
@@ -126,7 +126,7 @@ namespace tetradapt::mechanics
 
   template <unsigned int n>
   typename DensitySampler<n>::Part
-  DensitySampler<n>::look_at(Work &work, const Corners &corners) const
+  DensitySampler<n>::part_at(const Work &work, const Corners &corners) const
   {
     Part part;
     part.corners = corners;
@@ -143,12 +143,21 @@ namespace tetradapt::mechanics
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j < i; ++j)
         part.size = std::max(part.size, x[i].distance(x[j]));
+    return part;
+  }
+
+  template <unsigned int n>
+  void
+  DensitySampler<n>::look_at(Work &work, Part &part) const
+  {
     for (unsigned int q = 0; q < n_points; ++q)
       {
-        part.points[q] = mesh::point_in_part<n, n>(corners, rule_points[q]);
+        part.points[q] = mesh::point_in_part<n, n>(part.corners, rule_points[q]);
         part.values[q] = work(part.points[q]);
         part.mean += rule_weights[q] * part.values[q];
-        part.largest = std::max(part.largest, part.values[q].norm());
+        const double size = part.values[q].norm();
+        part.mean_size += rule_weights[q] * size;
+        part.largest = std::max(part.largest, size);
         for (unsigned int i = 0; i < n_functions; ++i)
           part.polynomial[i] += fit[q][i] * part.values[q];
       }
@@ -159,14 +168,20 @@ namespace tetradapt::mechanics
           rest -= functions[q][i] * part.polynomial[i];
         part.distance = std::max(part.distance, rest.norm());
       }
-    return part;
+  }
+
+  template <unsigned int n>
+  double
+  DensitySampler<n>::allowed(const Work &work, const Part &part)
+  {
+    return work.rules.tolerance * std::max(work.rules.mean, part.mean_size);
   }
 
   template <unsigned int n>
   bool
   DensitySampler<n>::fits(const Work &work, const Part &part) const
   {
-    return expected_error(part.distance, part.largest) <= work.rules.tolerance * work.rules.mean;
+    return expected_error(part.distance, part.largest) <= allowed(work, part);
   }
 
   template <unsigned int n>
@@ -184,7 +199,7 @@ namespace tetradapt::mechanics
       }
     // Outside of the points a polynomial is several times as far from a smooth function.
     distance = distance < 0.2 * largest ? 0.1 * distance : distance;
-    return expected_error(distance, largest) <= work.rules.tolerance * work.rules.mean;
+    return expected_error(distance, largest) <= allowed(work, part);
   }
 
   template <unsigned int n>
@@ -248,7 +263,8 @@ namespace tetradapt::mechanics
             std::array<double, 3> shares;
             for (unsigned int p = 0; p < 3; ++p)
               {
-                parts[p] = look_at(work, pieces[p]);
+                parts[p] = part_at(work, pieces[p]);
+                look_at(work, parts[p]);
                 if (!fits(work, parts[p]))
                   return false;
                 // Areas of barycentric coordinates, as a part of that of the whole element.
@@ -276,30 +292,35 @@ namespace tetradapt::mechanics
      * a curve is nearly straight in them. */
     constexpr double straight = 0.25;
 
-    const SamplingRules &rules = work.rules;
-    const Part           part  = look_at(work, corners);
-    const double         look  = rules.look_in ? rules.look_in(part.lower, part.upper) : rules.look;
-    was_limited                = false;
-    const bool is_small        = part.size <= look;
-    if (is_small && fits(work, part)
-        && (look == std::numeric_limits<double>::infinity() || rim_fits(work, part)))
+    const SamplingRules<n> &rules    = work.rules;
+    Part                    part     = part_at(work, corners);
+    const bool              has_look = bool(rules.part_size);
+    const double            look     = has_look ? rules.part_size(corners, part.lower, part.upper)
+                                                : std::numeric_limits<double>::infinity();
+    const bool              is_small = part.size <= look;
+    was_limited                      = false;
+    if (is_small)
       {
-        keep(work, part, fraction);
-        return fraction * part.mean;
-      }
-    if (is_small && part.size <= straight * look && divide_at_jump(work, part, fraction))
-      {
-        Tensor<1, 3> sum;
-        for (std::size_t i = work.samples.size() - 3 * n_points; i < work.samples.size(); ++i)
-          sum += work.samples[i].weight * work.samples[i].value;
-        return sum;
-      }
-    if ((is_small && part.size <= rules.finest) || work.n_evaluations > rules.budget)
-      {
-        keep(work, part, fraction);
-        work.rough += fraction * part.distance;
-        was_limited = true;
-        return fraction * part.mean;
+        look_at(work, part);
+        if (fits(work, part) && (part.size <= rules.without_rim || rim_fits(work, part)))
+          {
+            keep(work, part, fraction);
+            return fraction * part.mean;
+          }
+        if ((!has_look || part.size <= straight * look) && divide_at_jump(work, part, fraction))
+          {
+            Tensor<1, 3> sum;
+            for (std::size_t i = work.samples.size() - 3 * n_points; i < work.samples.size(); ++i)
+              sum += work.samples[i].weight * work.samples[i].value;
+            return sum;
+          }
+        if (part.size <= rules.finest)
+          {
+            keep(work, part, fraction);
+            work.rough += fraction * part.distance;
+            was_limited = true;
+            return fraction * part.mean;
+          }
       }
     Tensor<1, 3> sum;
     bool         limited_below = false;
@@ -308,8 +329,11 @@ namespace tetradapt::mechanics
       sum += refine(work, child, fraction / (n == 3 ? 4. : 8.), limited);
       limited_below = limited_below || limited;
     });
-    if (limited_below)
+    // Larger parts were not looked at: their children count with all that is rough in them.
+    if (limited_below && is_small)
       work.change += sum - fraction * part.mean;
+    else if (limited_below)
+      work.unknown = true;
     return sum;
   }
 
@@ -317,7 +341,7 @@ namespace tetradapt::mechanics
   double
   DensitySampler<n>::sample(const std::array<Point<3>, n> &corners,
                             const Function                &density,
-                            const SamplingRules           &rules,
+                            const SamplingRules<n>        &rules,
                             Samples                       &samples) const
   {
     samples.clear();
@@ -328,7 +352,8 @@ namespace tetradapt::mechanics
     bool was_limited = false;
     refine(work, whole, 1., was_limited);
     // Errors of parts have either sign: what the last cut changed tells more than their sum.
-    return was_limited ? 0.25 * work.rough : std::min(work.change.norm(), work.rough);
+    return was_limited || work.unknown ? 0.25 * work.rough
+                                       : std::min(work.change.norm(), work.rough);
   }
 
   template <unsigned int n>

@@ -11,11 +11,8 @@ namespace tetradapt::mechanics
 {
   namespace
   {
-    /** Second differences, relative to the largest value, above which a function varies fast.
-     * A bell curve exp(-r^2 / (2 s^2)) has the step over s, squared, at its top: it is seen by
-     * one step up to s = 4.5 steps, by four steps up to s = 10 steps. */
-    constexpr double       fast = 0.05, rather_fast = 0.15;
-    constexpr unsigned int stride = 4;
+    /** Widths of 2, 4 and 8 steps. */
+    constexpr FeatureLevels levels{0.25, 0.0625, 0.25};
   } // namespace
 
   FeatureGrid::FeatureGrid(const std::function<Tensor<1, 3>(const Point<3> &)> &function,
@@ -65,7 +62,7 @@ namespace tetradapt::mechanics
     mean_size = known > 0 ? mean_size / known : 0.;
 
     // Marks of nodes become marks of the boxes around them below.
-    std::vector<char> fine_marks(unknown), coarse_marks(unknown);
+    std::vector<char> fine_marks(unknown), medium_marks(unknown), coarse_marks(unknown);
     const auto        differs = [&](const std::size_t before,
                              const std::size_t here,
                              const std::size_t after,
@@ -82,70 +79,29 @@ namespace tetradapt::mechanics
             const unsigned int at[3] = {i, j, k};
             for (unsigned int d = 0; d < 3; ++d)
               {
-                if (at[d] >= 1 && at[d] + 1 < n[d]
-                    && differs(here - strides[d], here, here + strides[d], fast))
-                  fine_marks[here] = 1;
-                if (n[d] <= 2 * stride)
+                if (at[d] >= 1 && at[d] + 1 < n[d])
+                  {
+                    if (differs(here - strides[d], here, here + strides[d], levels.fine))
+                      fine_marks[here] = 1;
+                    if (differs(here - strides[d], here, here + strides[d], levels.medium))
+                      medium_marks[here] = 1;
+                  }
+                if (n[d] <= 2 * FeatureLevels::stride)
                   continue;
                 // At the rim of the grid, the differences nearest to it tell.
-                const unsigned int center = std::clamp(at[d], stride, n[d] - 1 - stride);
-                const std::size_t  there  = here + center * strides[d] - at[d] * strides[d];
-                if (differs(
-                      there - stride * strides[d], there, there + stride * strides[d], rather_fast))
+                const unsigned int center
+                  = std::clamp(at[d], FeatureLevels::stride, n[d] - 1 - FeatureLevels::stride);
+                const std::size_t there = here + center * strides[d] - at[d] * strides[d];
+                if (differs(there - FeatureLevels::stride * strides[d],
+                            there,
+                            there + FeatureLevels::stride * strides[d],
+                            levels.coarse))
                   coarse_marks[here] = 1;
               }
           }
-    fine   = count(fine_marks);
-    coarse = count(coarse_marks);
-  }
-
-  FeatureGrid::Counts
-  FeatureGrid::count(const std::vector<char> &marked) const
-  {
-    Counts counts(marked.size());
-    for (unsigned int k = 0; k < n[2]; ++k)
-      for (unsigned int j = 0; j < n[1]; ++j)
-        {
-          unsigned int row = 0;
-          for (unsigned int i = 0; i < n[0]; ++i)
-            {
-              row += marked[node(i, j, k)] != 0;
-              unsigned int sum = row;
-              if (j > 0)
-                sum += counts[node(i, j - 1, k)];
-              if (k > 0)
-                sum += counts[node(i, j, k - 1)];
-              if (j > 0 && k > 0)
-                sum -= counts[node(i, j - 1, k - 1)];
-              counts[node(i, j, k)] = sum;
-            }
-        }
-    return counts;
-  }
-
-  bool
-  FeatureGrid::any(const Counts                      &counts,
-                   const std::array<unsigned int, 3> &first,
-                   const std::array<unsigned int, 3> &last) const
-  {
-    unsigned int sum = 0;
-    for (unsigned int corner = 0; corner < 8; ++corner)
-      {
-        unsigned int at[3];
-        bool         outside = false, negative = false;
-        for (unsigned int d = 0; d < 3; ++d)
-          if ((corner >> d & 1) != 0)
-            {
-              outside  = outside || first[d] == 0;
-              at[d]    = first[d] - 1;
-              negative = !negative;
-            }
-          else
-            at[d] = last[d];
-        if (!outside)
-          sum += negative ? -counts[node(at[0], at[1], at[2])] : counts[node(at[0], at[1], at[2])];
-      }
-    return sum != 0;
+    fine   = MarkCounts(n, fine_marks);
+    medium = MarkCounts(n, medium_marks);
+    coarse = MarkCounts(n, coarse_marks);
   }
 
   double
@@ -157,18 +113,14 @@ namespace tetradapt::mechanics
         const double from = std::floor((lower[d] - origin[d]) / used_step);
         const double to   = std::ceil((upper[d] - origin[d]) / used_step);
         if (!(from >= 0.) || !(to < n[d]))
-          return used_step;
+          return FeatureLevels::fine_parts * used_step;
         first[d] = static_cast<unsigned int>(from);
         last[d]  = static_cast<unsigned int>(to);
       }
-    return any(fine, first, last)     ? used_step
-           : any(coarse, first, last) ? stride * used_step
-                                      : std::numeric_limits<double>::infinity();
-  }
-
-  std::size_t
-  FeatureGrid::n_fine_boxes() const
-  {
-    return fine.empty() ? 0 : fine.back();
+    return fine.any(first, last)     ? FeatureLevels::fine_parts * used_step
+           : medium.any(first, last) ? FeatureLevels::medium_parts * used_step
+           : coarse.any(first, last, FeatureLevels::stride)
+             ? FeatureLevels::coarse_parts * used_step
+             : std::numeric_limits<double>::infinity();
   }
 } // namespace tetradapt::mechanics

@@ -3,6 +3,7 @@
 
 #include "tetradapt/mechanics/supports.h"
 #include "tetradapt/mechanics/surface_loads.h"
+#include "tetradapt/mechanics/volume_density.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -98,7 +99,7 @@ namespace tetradapt::mechanics
             break;
           case scene::LoadType::body_force:
           case scene::LoadType::gravity:
-            add_volume_load(materials.body_forces().at(number), total);
+            add_volume_load(*materials.body_forces().at(number), total);
             break;
           case scene::LoadType::temperature:
             break;

@@ -2,6 +2,7 @@
 #include "tetradapt/mechanics/material_map.h"
 
 #include "tetradapt/core/exceptions.h"
+#include "tetradapt/mechanics/volume_density.h"
 
 #include <algorithm>
 #include <set>
@@ -59,7 +60,8 @@ namespace tetradapt::mechanics
   }
 
   MaterialMap::MaterialMap(const scene::Scene &scene, const mesh::TetMesh &mesh)
-    : materials(scene.materials), temperatures(mesh::bounding_box(mesh)),
+    : materials(scene.materials),
+      temperatures(std::make_shared<VolumeDensity>(mesh::bounding_box(mesh))),
       mixed(scene.formulation == scene::Formulation::mixed)
   {
     // Materials that name regions come first; one that names none fills the rest.
@@ -123,16 +125,16 @@ namespace tetradapt::mechanics
                                                              : 1.;
         if (load.type == LoadType::temperature)
           {
-            temperatures.add_term({{load.value[0], "0", "0"}},
-                                  what,
-                                  factors,
-                                  load.smallest_feature);
+            temperatures->add_term({{load.value[0], "0", "0"}},
+                                   what,
+                                   factors,
+                                   load.smallest_feature);
             thermal = true;
           }
         else
           {
-            VolumeDensity density(mesh::bounding_box(mesh));
-            density.add_term(load.value, what, factors, load.smallest_feature);
+            auto density = std::make_shared<VolumeDensity>(mesh::bounding_box(mesh));
+            density->add_term(load.value, what, factors, load.smallest_feature);
             forces.emplace(i, std::move(density));
           }
       }
@@ -176,5 +178,12 @@ namespace tetradapt::mechanics
   MaterialMap::has_thermal_strain() const
   {
     return thermal;
+  }
+
+  SymmetricTensor<2, 3>
+  MaterialMap::thermal_strain(int region, const dealii::Point<3> &point) const
+  {
+    return thermal ? temperatures->value(region, point)[0] * dealii::unit_symmetric_tensor<3>()
+                   : SymmetricTensor<2, 3>();
   }
 } // namespace tetradapt::mechanics

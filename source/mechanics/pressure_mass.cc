@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/mechanics/pressure_mass.h"
 
+#include "tetradapt/mechanics/volume_density.h"
+
 #include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>

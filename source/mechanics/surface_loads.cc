@@ -2,10 +2,10 @@
 #include "tetradapt/mechanics/surface_loads.h"
 
 #include "tetradapt/core/polynomial_text.h"
+#include "tetradapt/mechanics/triangle_features.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 namespace tetradapt::mechanics
@@ -13,10 +13,8 @@ namespace tetradapt::mechanics
   namespace
   {
     constexpr double default_spacing = 0.01; ///< of the body's diagonal
-    /** Parts of faces are not cut below this part of the spacing, nor do they take more
-     * evaluations than a face's share and this. */
-    constexpr double        finest         = 1. / 64.;
-    constexpr unsigned long evaluations_of = 4000;
+    /** Parts of faces are not cut below this part of the spacing. */
+    constexpr double finest = 1. / 64.;
 
     std::array<std::string, 3>
     texts_of(const scene::LoadParameters &load)
@@ -52,9 +50,11 @@ namespace tetradapt::mechanics
     bool                       is_pressure, is_constant, uses_normal, is_polynomial;
     double                     smallest_feature;
     Tensor<1, 3>               constant;
-    /** Made when they are first needed. */
-    mutable std::unique_ptr<SamplingRules> rules;
-    mutable double                         area = 0., spacing = 0.;
+    /** Found when they are first needed. */
+    mutable bool             is_looked_at = false;
+    mutable double           wanted = 0., spacing = 0.; ///< of looks
+    mutable double           largest = 0.;              ///< |density|
+    mutable SamplingRules<3> rules;
   };
 
   SurfaceLoads::SurfaceLoads(const scene::Scene &scene, const mesh::TetMesh &mesh)
@@ -111,57 +111,89 @@ namespace tetradapt::mechanics
     return load.is_pressure ? -load.constant[0] * normal : load.constant;
   }
 
-  SamplingRules
-  SurfaceLoads::make_rules(const Load &load) const
+  void
+  SurfaceLoads::look_at(const Load &load, const unsigned int number) const
   {
     std::vector<unsigned int> faces;
+    double                    total_area = 0.;
     for (unsigned int f = 0; f < mesh.faces.size(); ++f)
-      for (const unsigned int number : on_face(f))
-        if (loads.at(number).get() == &load)
-          {
-            faces.push_back(f);
-            load.area += mesh::face_area_vector(mesh, mesh.faces[f]).norm();
-          }
-    const auto   box    = mesh::bounding_box(mesh);
-    const double wanted = load.smallest_feature > 0.
-                            ? load.smallest_feature
-                            : default_spacing * box.first.distance(box.second);
-    // Two triangles, with 13 points each, a square of that spacing.
-    load.spacing = std::max(wanted, std::sqrt(26. * load.area / most_evaluations));
+      {
+        const auto &numbers = on_face(f);
+        if (std::find(numbers.begin(), numbers.end(), number) == numbers.end())
+          continue;
+        faces.push_back(f);
+        total_area += mesh::face_area_vector(mesh, mesh.faces[f]).norm();
+      }
+    const auto box = mesh::bounding_box(mesh);
+    load.wanted    = load.smallest_feature > 0. ? load.smallest_feature
+                                                : default_spacing * box.first.distance(box.second);
+    // Two parts and half a point of a lattice, twice, for each square of that spacing.
+    load.spacing = std::max(load.wanted, std::sqrt(3. * total_area / most_evaluations));
 
-    SamplingRules rules;
-    rules.look   = load.is_polynomial ? std::numeric_limits<double>::infinity() : load.spacing;
-    rules.finest = finest * load.spacing;
-    // How large it is: from the points of the basic rule on faces of the mesh, or on parts of
-    // them as small as the spacing.
+    // How large the load is: from the centroids of parts as small as the spacing.
     double sum = 0.;
     for (const unsigned int f : faces)
       {
-        const auto             &v    = mesh.faces[f].vertices;
-        const Tensor<1, 3>      area = mesh::face_area_vector(mesh, mesh.faces[f]);
-        const double            size = area.norm();
-        std::array<Point<3>, 3> x{{mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]}};
-        const double            longest
+        const std::array<Point<3>, 3> x    = corners_of(f);
+        const Tensor<1, 3>            area = mesh::face_area_vector(mesh, mesh.faces[f]);
+        const double                  size = area.norm();
+        const double                  longest
           = std::max({x[0].distance(x[1]), x[1].distance(x[2]), x[2].distance(x[0])});
         const auto n
-          = load.is_polynomial
-              ? 1u
-              : std::min(100000u, static_cast<unsigned int>(std::ceil(longest / load.spacing)));
-        // The centroids of n^2 equal parts.
+          = load.is_polynomial ? 1u : static_cast<unsigned int>(std::ceil(longest / load.spacing));
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int j = 0; i + j < n; ++j)
             for (unsigned int turned = 0; turned < (i + j + 1 < n ? 2u : 1u); ++turned)
               {
-                const double       shift = turned == 0 ? 1. / 3. : 2. / 3.;
-                const double       s = (i + shift) / n, t = (j + shift) / n;
-                const Point<3>     p = x[0] + s * (x[1] - x[0]) + t * (x[2] - x[0]);
-                const Tensor<1, 3> normal
-                  = load.uses_normal ? surface().at(f, p).normal : area / size;
-                sum += size / (double(n) * n) * load.at(p, normal).norm();
+                const double   shift = turned == 0 ? 1. / 3. : 2. / 3.;
+                const double   s = (i + shift) / n, t = (j + shift) / n;
+                const Point<3> p     = x[0] + s * (x[1] - x[0]) + t * (x[2] - x[0]);
+                const double   value = traction(number, f, p, area / size).norm();
+                sum += size / (double(n) * n) * value;
+                load.largest = std::max(load.largest, value);
               }
       }
-    rules.mean = load.area > 0. ? sum / load.area : 0.;
-    return rules;
+    load.rules.mean = total_area > 0. ? sum / total_area : 0.;
+
+    double n_marks = 0.;
+    if (!load.is_polynomial)
+      for (const unsigned int f : faces)
+        {
+          const Tensor<1, 3> area = mesh::face_area_vector(mesh, mesh.faces[f]);
+          const auto         density
+            = [&](const Point<3> &x) { return traction(number, f, x, area / area.norm()); };
+          n_marks += TriangleFeatures(corners_of(f), density, load.spacing, load.largest).n_marks();
+        }
+    // Two parts a point of the lattice, with 13 points each, if they are as long as its step.
+    const double finer = n_marks > 0. ? std::sqrt(most_evaluations / (26. * n_marks)) : 1. / finest;
+    load.rules.finest  = load.spacing / std::clamp(finer, 0.5, 1. / finest);
+    load.is_looked_at  = true;
+  }
+
+  double
+  SurfaceLoads::sample_carefully(const Load                        &load,
+                                 const unsigned int                 number,
+                                 const std::array<Point<3>, 3>     &corners,
+                                 const DensitySampler<3>::Function &density,
+                                 Samples                           &samples) const
+  {
+    if (!load.is_looked_at)
+      look_at(load, number);
+    SamplingRules<3> rules = load.rules;
+    if (load.is_polynomial)
+      return sampler.sample(corners, density, rules, samples);
+    const TriangleFeatures features(corners, density, load.spacing, load.largest);
+    rules.part_size = [&](const mesh::PartCorners<3> &part, const Point<3> &, const Point<3> &) {
+      return features.part_size(part);
+    };
+    return sampler.sample(corners, density, rules, samples);
+  }
+
+  std::array<Point<3>, 3>
+  SurfaceLoads::corners_of(const unsigned int face) const
+  {
+    const auto &v = mesh.faces[face].vertices;
+    return {{mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]}};
   }
 
   double
@@ -178,7 +210,6 @@ namespace tetradapt::mechanics
                                  Samples           &samples) const
   {
     const Load        &load = *loads.at(number);
-    const auto        &v    = mesh.faces[face].vertices;
     const Tensor<1, 3> area = mesh::face_area_vector(mesh, mesh.faces[face]);
     const double       size = area.norm();
     if (load.is_constant)
@@ -189,15 +220,14 @@ namespace tetradapt::mechanics
       }
     const Tensor<1, 3> normal = area / size;
     const auto density = [&](const Point<3> &x) { return traction(number, face, x, normal); };
-    const std::array<Point<3>, 3> corners{
-      {mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]]}};
+    const auto corners = corners_of(face);
     if (load.uses_normal && load.is_polynomial)
       {
         // The normal varies like the surface: the basic rule does, as for its shape.
         sampler.sample_basic(corners, density, samples);
         return 0.;
       }
-    return sampler.sample(corners, density, rules_for(load, size), samples);
+    return sample_carefully(load, number, corners, density, samples);
   }
 
   double
@@ -206,27 +236,16 @@ namespace tetradapt::mechanics
                                 const Tensor<1, 3>            &normal,
                                 Samples                       &samples) const
   {
-    const Load  &load = *loads.at(number);
-    const double area
-      = 0.5 * cross_product_3d(corners[1] - corners[0], corners[2] - corners[0]).norm();
-    return sampler.sample(
+    const Load &load = *loads.at(number);
+    return sample_carefully(
+      load,
+      number,
       corners,
       [&](const Point<3> &x) {
         const Tensor<1, 3> value = load.at(x, normal);
         return load.is_pressure ? -value[0] * normal : value;
       },
-      rules_for(load, area),
       samples);
-  }
-
-  SamplingRules
-  SurfaceLoads::rules_for(const Load &load, const double area) const
-  {
-    if (load.rules == nullptr)
-      load.rules = std::make_unique<SamplingRules>(make_rules(load));
-    SamplingRules rules = *load.rules;
-    rules.budget = evaluations_of + static_cast<unsigned long>(most_evaluations * area / load.area);
-    return rules;
   }
 
   const mesh::TrueSurface &
@@ -241,17 +260,11 @@ namespace tetradapt::mechanics
   SurfaceLoads::remark(const unsigned int number) const
   {
     const Load &load = *loads.at(number);
-    if (load.rules == nullptr || load.is_polynomial)
-      return "";
-    const auto   box    = mesh::bounding_box(mesh);
-    const double wanted = load.smallest_feature > 0.
-                            ? load.smallest_feature
-                            : default_spacing * box.first.distance(box.second);
-    if (load.spacing <= 1.0001 * wanted)
+    if (!load.is_looked_at || load.is_polynomial || load.spacing <= 1.0001 * load.wanted)
       return "";
     std::ostringstream text;
     text << load.name << ": the value is looked at with a spacing of " << load.spacing
-         << " instead of " << wanted << ", as " << most_evaluations << " evaluations allow.";
+         << " instead of " << load.wanted << ", as " << most_evaluations << " evaluations allow.";
     return text.str();
   }
 } // namespace tetradapt::mechanics

@@ -98,8 +98,7 @@ namespace tetradapt::mechanics
   void
   VolumeDensity::make_rules() const
   {
-    rules             = std::make_unique<SamplingRules>();
-    rules->look       = std::numeric_limits<double>::infinity();
+    rules             = std::make_unique<SamplingRules<4>>();
     rules->finest     = std::numeric_limits<double>::infinity();
     bool has_features = false;
     for (const auto &term : terms)
@@ -124,24 +123,25 @@ namespace tetradapt::mechanics
           }
         term->grid = std::make_unique<FeatureGrid>(
           function, body.first, body.second, term->spacing, most_nodes);
-        has_features = true;
+        has_features       = true;
+        rules->without_rim = std::min(rules->without_rim, term->grid->step());
         rules->mean += largest * term->grid->mean();
         // Six parts a box with 14 points each, if parts are as long as the grid's step.
-        const double n     = 84. * term->grid->n_fine_boxes();
+        const double n     = 84. * term->grid->n_marks();
         const double finer = n > 0. ? std::cbrt(most_evaluations / n) : 1. / finest;
         rules->finest
-          = std::min(rules->finest, term->grid->step() / std::clamp(finer, 1., 1. / finest));
+          = std::min(rules->finest, term->grid->step() / std::clamp(finer, 0.5, 1. / finest));
       }
     if (has_features)
       {
-        rules->look    = 0.; // asked of the grids
-        rules->look_in = [this](const Point<3> &lower, const Point<3> &upper) {
-          double size = std::numeric_limits<double>::infinity();
-          for (const auto &term : terms)
-            if (term->grid != nullptr)
-              size = std::min(size, term->grid->part_size(lower, upper));
-          return size;
-        };
+        rules->part_size
+          = [this](const mesh::PartCorners<4> &, const Point<3> &lower, const Point<3> &upper) {
+              double size = std::numeric_limits<double>::infinity();
+              for (const auto &term : terms)
+                if (term->grid != nullptr)
+                  size = std::min(size, term->grid->part_size(lower, upper));
+              return size;
+            };
       }
   }
 

@@ -60,6 +60,15 @@ namespace tetradapt::report
       return cells;
     }
 
+    /** How well a load is known and how much it changed, relative to int |density|. */
+    Cells
+    accuracy_cells(const adapt::LoadRecord &load)
+    {
+      const mechanics::LoadTotal &total = load.total;
+      return {total.magnitude > 0. ? figure(total.remainder / total.magnitude) : "",
+              figure(load.drift)};
+    }
+
     Cells
     imbalance_cells(const std::string &cycle, const solve::Equilibrium &equilibrium)
     {
@@ -69,7 +78,9 @@ namespace tetradapt::report
       append(cells,
              {figure(equilibrium.force_scale),
               figure(equilibrium.relative_imbalance),
-              figure(equilibrium.allowed_imbalance)});
+              figure(equilibrium.allowed_imbalance),
+              "",
+              ""});
       return cells;
     }
 
@@ -120,15 +131,25 @@ namespace tetradapt::report
   {
     std::string text
       = "cycle,kind,name,faces,area,nodes,tets,volume,force_x,force_y,force_z,moment_x,"
-        "moment_y,moment_z,force_scale,relative_imbalance,allowed_imbalance\n";
+        "moment_y,moment_z,force_scale,relative_imbalance,allowed_imbalance,remainder,drift\n";
     for (const adapt::CycleRecord &record : records)
       {
         if (!record.equilibrium)
           continue;
         const std::string cycle = std::to_string(record.cycle);
-        for (const auto *list : {&record.equilibrium->supports, &record.equilibrium->loads})
-          for (const solve::ActingForce &acting : *list)
-            text += csv_line(acting_cells(cycle, acting));
+        for (const solve::ActingForce &support : record.equilibrium->supports)
+          {
+            Cells cells = acting_cells(cycle, support);
+            append(cells, {"", ""});
+            text += csv_line(cells);
+          }
+        for (std::size_t i = 0; i < record.equilibrium->loads.size(); ++i)
+          {
+            Cells cells = acting_cells(cycle, record.equilibrium->loads[i]);
+            append(cells,
+                   i < record.loads.size() ? accuracy_cells(record.loads[i]) : Cells{"", ""});
+            text += csv_line(cells);
+          }
         text += csv_line(imbalance_cells(cycle, *record.equilibrium));
       }
     return text;

@@ -2,6 +2,7 @@
 #include "tetradapt/solve/energies.h"
 
 #include "tetradapt/mechanics/energy_norm.h"
+#include "tetradapt/mechanics/volume_density.h"
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>

@@ -2,6 +2,7 @@
 #include "tetradapt/solve/hexahedral_loads.h"
 
 #include "tetradapt/mechanics/surface_loads.h"
+#include "tetradapt/mechanics/volume_density.h"
 #include "tetradapt/mesh/hexahedral_field.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -364,7 +365,7 @@ namespace tetradapt::solve
         case scene::LoadType::body_force:
         case scene::LoadType::gravity:
           add_volume_load(
-            materials.body_forces().at(number),
+            *materials.body_forces().at(number),
             forest,
             space,
             [](const Tensor<1, 3> &value, int, Tensor<1, 3> &force, SymmetricTensor<2, 3> &) {

@@ -4,6 +4,7 @@
 
 #include "tetradapt/mechanics/material_map.h"
 #include "tetradapt/mechanics/surface_loads.h"
+#include "tetradapt/mechanics/volume_density.h"
 
 namespace tetradapt::compare
 {
@@ -138,9 +139,9 @@ namespace tetradapt::compare
   GivenLoads::sample_cell(const unsigned int cell, const Visitor &visit) const
   {
     for (const auto &force : materials.body_forces())
-      if (force.second.acts_in(mesh.regions[cell]))
+      if (force.second->acts_in(mesh.regions[cell]))
         {
-          force.second.sample(mesh, cell, cell_samples);
+          force.second->sample(mesh, cell, cell_samples);
           for (const auto &point : cell_samples)
             visit(point.b, point.weight, point.value);
         }

@@ -3,6 +3,7 @@
 #define tetradapt_estimate_equilibrated_cells_h
 
 #include "tetradapt/mechanics/material_map.h"
+#include "tetradapt/mechanics/volume_density.h"
 #include "tetradapt/mesh/nodal_field.h"
 #include "tetradapt/scene/scene.h"
 

@@ -7,6 +7,7 @@
 #include <deal.II/base/point.h>
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace tetradapt::mechanics
@@ -23,23 +24,24 @@ namespace tetradapt::mechanics
     Tensor<1, 3>          value;  ///< of the density there
   };
 
-  /** How an element is to be sampled. */
+  /** How elements are to be sampled. */
+  template <unsigned int n>
   struct SamplingRules
   {
-    /** Parts are cut until their longest edges are at most this long, so that nothing of that
-     * size is missed; infinity: the function has no small features. */
-    double look = 0.;
     /** Parts whose longest edge is below this are not cut further. */
     double finest = 0.;
-    /** Mean of |density| over all that it acts on; sets the accuracy. */
+    /** Mean of |density| over all that it acts on. */
     double mean = 0.;
-    /** The accuracy, relative to mean, of an element's mean density. */
-    double tolerance = 3e-7;
-    /** Parts are not cut any more after this many evaluations. */
-    unsigned long budget = 1000000;
-    /** Whether a part in this box has to be looked at, and with which size; empty: look,
-     * everywhere. */
-    std::function<double(const Point<3> &lower, const Point<3> &upper)> look_in;
+    /** The accuracy of a part's mean density, relative to the mean of |density| in it or, where
+     * that is larger, over all. Errors of parts have either sign. */
+    double tolerance = n == 3 ? 3e-8 : 1e-6;
+    /** Parts that are longer than this are also looked at along their rim. */
+    double without_rim = std::numeric_limits<double>::infinity();
+    /** How long the edges of a part may be for nothing to be missed, given its corners, in
+     * barycentric coordinates, and the box around it; empty: as long as they are. */
+    std::function<
+      double(const mesh::PartCorners<n> &corners, const Point<3> &lower, const Point<3> &upper)>
+      part_size;
   };
 
   /**
@@ -72,7 +74,7 @@ namespace tetradapt::mechanics
     double
     sample(const std::array<Point<3>, n> &corners,
            const Function                &density,
-           const SamplingRules           &rules,
+           const SamplingRules<n>        &rules,
            Samples                       &samples) const;
 
     /** Replaces @p samples by the basic rule, for functions that need no more. */
@@ -93,7 +95,12 @@ namespace tetradapt::mechanics
     struct Part;
 
     Part
-    look_at(Work &work, const Corners &corners) const;
+    part_at(const Work &work, const Corners &corners) const;
+    /** Evaluates the density in a part. */
+    void
+    look_at(Work &work, Part &part) const;
+    static double
+    allowed(const Work &work, const Part &part);
     bool
     fits(const Work &work, const Part &part) const;
     /** The rim: corners and middles of edges of a part, a little inside. */

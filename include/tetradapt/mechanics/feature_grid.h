@@ -2,6 +2,8 @@
 #ifndef tetradapt_mechanics_feature_grid_h
 #define tetradapt_mechanics_feature_grid_h
 
+#include "tetradapt/mechanics/mark_counts.h"
+
 #include <deal.II/base/point.h>
 
 #include <functional>
@@ -37,14 +39,17 @@ namespace tetradapt::mechanics
       return used_step;
     }
 
-    /** How long parts of cells in a box may be for nothing to be missed: one step, four
-     * steps, or infinity. One step outside of the grid. */
+    /** How long the edges of a part of a cell in a box may be for nothing to be missed, see
+     * FeatureLevels; two steps outside of the grid. */
     double
     part_size(const Point<3> &lower, const Point<3> &upper) const;
 
-    /** Number of the grid's boxes in which a part may have one step only. */
+    /** Nodes around which the function varies fast. */
     std::size_t
-    n_fine_boxes() const;
+    n_marks() const
+    {
+      return fine.n_marks();
+    }
 
     /** Mean of |function| at the nodes. */
     double
@@ -54,26 +59,16 @@ namespace tetradapt::mechanics
     }
 
   private:
-    /** Sums of marks over all boxes with lower numbers, so that the marks in any
-     * range are counted by eight numbers. */
-    using Counts = std::vector<unsigned int>;
-
     std::size_t
     node(unsigned int i, unsigned int j, unsigned int k) const
     {
       return (std::size_t(k) * n[1] + j) * n[0] + i;
     }
-    Counts
-    count(const std::vector<char> &marked) const;
-    bool
-    any(const Counts                      &counts,
-        const std::array<unsigned int, 3> &first,
-        const std::array<unsigned int, 3> &last) const;
 
     Point<3>                    origin;
     double                      used_step = 0., mean_size = 0.;
     std::array<unsigned int, 3> n{}; ///< nodes in each direction
-    Counts                      fine, coarse;
+    MarkCounts                  fine, medium, coarse;
   };
 } // namespace tetradapt::mechanics
 

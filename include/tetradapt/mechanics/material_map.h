@@ -4,15 +4,17 @@
 
 #include "tetradapt/core/expression.h"
 #include "tetradapt/mechanics/constitutive_law.h"
-#include "tetradapt/mechanics/volume_density.h"
 #include "tetradapt/mesh/tet_mesh.h"
 #include "tetradapt/scene/scene.h"
 
 #include <map>
+#include <memory>
 #include <set>
 
 namespace tetradapt::mechanics
 {
+  class VolumeDensity;
+
   /**
    * The region ids that a material or a load on the body names; all of them if
    * it names none.
@@ -66,21 +68,17 @@ namespace tetradapt::mechanics
 
     /** Thermal strain alpha T(x) I at @p point of @p region; zero without one. */
     SymmetricTensor<2, 3>
-    thermal_strain(int region, const dealii::Point<3> &point) const
-    {
-      return thermal ? temperatures.value(region, point)[0] * dealii::unit_symmetric_tensor<3>()
-                     : SymmetricTensor<2, 3>();
-    }
+    thermal_strain(int region, const dealii::Point<3> &point) const;
 
     /** The linear thermal strain alpha T, in the first component, for integrals over cells. */
     const VolumeDensity &
     thermal_density() const
     {
-      return temperatures;
+      return *temperatures;
     }
 
     /** The body forces and weights, by their numbers among the scene's loads. */
-    const std::map<unsigned int, VolumeDensity> &
+    const std::map<unsigned int, std::shared_ptr<const VolumeDensity>> &
     body_forces() const
     {
       return forces;
@@ -98,12 +96,12 @@ namespace tetradapt::mechanics
     void
     add_loads(const scene::Scene &scene, const mesh::TetMesh &mesh);
 
-    std::vector<scene::MaterialParameters> materials;
-    std::map<int, Entry>                   entries;
-    VolumeDensity                          temperatures;
-    std::map<unsigned int, VolumeDensity>  forces;
-    bool                                   thermal = false;
-    bool                                   mixed   = false;
+    std::vector<scene::MaterialParameters>                       materials;
+    std::map<int, Entry>                                         entries;
+    std::shared_ptr<VolumeDensity>                               temperatures;
+    std::map<unsigned int, std::shared_ptr<const VolumeDensity>> forces;
+    bool                                                         thermal = false;
+    bool                                                         mixed   = false;
   };
 } // namespace tetradapt::mechanics
 

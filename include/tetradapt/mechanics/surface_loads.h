@@ -87,18 +87,24 @@ namespace tetradapt::mechanics
     std::string
     remark(unsigned int load) const;
 
-    /** Evaluations that looking at one load on one mesh may take; more would be spent with
-     * a smaller spacing. As many may be spent on jumps and peaks. */
+    /** Evaluations that looking at one load on one mesh may take: the spacing is as large as that
+     * needs. About as many may be spent on jumps and peaks. */
     static constexpr double most_evaluations = 4e6;
 
   private:
     struct Load;
 
-    /** With which a triangle of area @p area is sampled. */
-    SamplingRules
-    rules_for(const Load &load, double area) const;
-    SamplingRules
-    make_rules(const Load &load) const;
+    /** Finds how large a load is and where it varies. */
+    void
+    look_at(const Load &load, unsigned int number) const;
+    double
+    sample_carefully(const Load                        &load,
+                     unsigned int                       number,
+                     const std::array<Point<3>, 3>     &corners,
+                     const DensitySampler<3>::Function &density,
+                     Samples                           &samples) const;
+    std::array<Point<3>, 3>
+    corners_of(unsigned int face) const;
 
     const mesh::TetMesh                          &mesh;
     scene::MeshParameters                         mesh_parameters; ///< for the surface

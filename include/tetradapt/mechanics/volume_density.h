@@ -78,7 +78,7 @@ namespace tetradapt::mechanics
 
     /** Evaluations on one mesh that are spent on parts of cells where an expression varies
      * fast, about; they set the size of the smallest parts. */
-    static constexpr double most_evaluations = 2e6;
+    static constexpr double most_evaluations = 5e5;
     /** Nodes of a grid. */
     static constexpr std::size_t most_nodes = 4000000;
 
@@ -88,10 +88,10 @@ namespace tetradapt::mechanics
     void
     make_rules() const;
 
-    std::pair<Point<3>, Point<3>>          body;
-    std::vector<std::unique_ptr<Term>>     terms;
-    DensitySampler<4>                      sampler;
-    mutable std::unique_ptr<SamplingRules> rules; ///< made when they are first needed
+    std::pair<Point<3>, Point<3>>             body;
+    std::vector<std::unique_ptr<Term>>        terms;
+    DensitySampler<4>                         sampler;
+    mutable std::unique_ptr<SamplingRules<4>> rules; ///< made when they are first needed
   };
 } // namespace tetradapt::mechanics
 
