@@ -206,7 +206,7 @@ main(int argc, char *argv[])
     }
   catch (const std::exception &error)
     {
-      std::cerr << "error: " << error.what() << std::endl;
+      std::cerr << "Error: " << error.what() << std::endl;
       MPI_Abort(MPI_COMM_WORLD, 1);
     }
 }

@@ -131,7 +131,7 @@ namespace tetradapt::cli
               check_study_inputs(scene, runs, mistakes, log);
             mistakes.throw_if_any(file);
             for (const auto &warning : scene.warnings())
-              std::cerr << core::printable("warning: " + warning) << '\n';
+              std::cerr << core::printable("Warning: " + warning) << '\n';
             if (!options.quiet)
               std::cerr << core::printable(file + ": valid\n" + plan_text(scene, runs));
           });
@@ -195,7 +195,7 @@ namespace tetradapt::cli
     end_by_signal(const int signal)
     {
       const std::string text
-        = "error: Ended by " + core::InterruptWatcher::signal_name(signal) + ".\n";
+        = "Error: Ended by " + core::InterruptWatcher::signal_name(signal) + ".\n";
       if (!find_launch().first)
         std::this_thread::sleep_for(std::chrono::milliseconds(300));
       else if (::write(STDERR_FILENO, text.data(), text.size()) < 0)

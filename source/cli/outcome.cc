@@ -21,7 +21,7 @@ namespace tetradapt::cli
   void
   print_error(const std::string &message)
   {
-    std::cerr << "error: " + core::printable(message) + "\n" << std::flush;
+    std::cerr << "Error: " + core::printable(message) + "\n" << std::flush;
   }
 
   namespace

@@ -203,7 +203,7 @@ namespace tetradapt::cli
         directory.end();
         directory.files().end_at_once();
         const std::string line = (sink_options(options).is_terminal ? "\r\033[K" : "")
-                                 + core::printable("error: " + text) + "\n";
+                                 + core::printable("Error: " + text) + "\n";
         if (::write(STDERR_FILENO, line.data(), line.size()) < 0)
           return; // nobody is there to be told
       }

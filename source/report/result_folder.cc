@@ -238,6 +238,10 @@ namespace tetradapt::report
           throw core::InputError("The file '" + file(name)
                                  + "' was not written by this program and is not replaced. Move "
                                    "it away, or choose another directory in Output.");
+        if (entry != nullptr && !is_unchanged(*entry))
+          throw core::InputError("The file '" + file(name)
+                                 + "' was changed since the program wrote it and is not replaced. "
+                                   "Move it away, or choose another directory in Output.");
         if (entry == nullptr)
           {
             entries.emplace_back();

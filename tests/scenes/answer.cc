@@ -116,6 +116,8 @@ main()
         lines(linear.out).back().find("  next") == 0
           || lines(linear.out).back().find("     ") == 0);
   check("log has it", contains(read("output/beam/log.txt"), "largest von Mises"));
+  check("  and the names of all tables",
+        contains(read("output/beam/log.txt"), "mesh.csv, reactions.csv, regions.csv"));
   check("results.txt has it", contains(read("output/beam/results.txt"), "low (support"));
   check("results.csv has it", contains(read("output/beam/results.csv"), "support low force x,"));
   // Weight 2 * 4 * 0.5 in (2, 1/2, 1/2); wind: int x/10 = 0.8 along y, moments int x z, int x^2.

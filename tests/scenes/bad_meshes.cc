@@ -242,7 +242,7 @@ main()
   std::istringstream lines(portable(result.err));
   std::vector<std::string> messages;
   for (std::string line; std::getline(lines, line);)
-    if (line.compare(0, 7, "error: ") == 0)
+    if (line.compare(0, 7, "Error: ") == 0)
       messages.push_back(line.substr(7));
     else if (line.compare(0, 8, "Warning:") != 0 && !messages.empty())
       messages.back() += " | " + line;

@@ -10,31 +10,9 @@ using namespace program;
 namespace
 {
   std::string
-  bricks(const std::string &cells = "2x2x2")
+  block(const std::string &cells = "2x2x2")
   {
-    return R"(
-subsection Mesh
-  set Type  = bricks
-  set Cells = )"
-           + cells + R"(
-end
-subsection Materials
-  subsection m
-    set Young modulus = 1000
-  end
-end
-subsection Supports
-  subsection s
-    set Groups = z-min
-  end
-end
-subsection Loads
-  subsection l
-    set Groups = z-max
-    set Value  = 0; 0; -1
-  end
-end
-)";
+    return bricks_section(cells) + loaded_block("0; 0; -1");
   }
 
   void
@@ -116,11 +94,10 @@ end
   void
   several()
   {
-    write("bad.prm", bricks() + "subsection Mesh\n set Cels = 1x1x1\nend\n");
+    write("bad.prm", block() + "subsection Mesh\n set Cels = 1x1x1\nend\n");
     write("fails.prm",
-          bricks("8x8x8")
-            + "subsection Solver\n set Type = cg\n set Maximum iterations = 1\nend\n");
-    write("last.prm", bricks());
+          block("8x8x8") + "subsection Solver\n set Type = cg\n set Maximum iterations = 1\nend\n");
+    write("last.prm", block());
     one_line("not finite", run("--quiet --set 'Materials/m/Young modulus=1e-308' s.prm"));
     one_line("loads not finite",
              run("--quiet --set Solver/Type=cg --set 'Loads/l/Value=1e308; 1e308; 0' s.prm"));
@@ -178,7 +155,7 @@ end
 int
 main()
 {
-  write("s.prm", bricks());
+  write("s.prm", block());
   options();
   skipping();
   several();

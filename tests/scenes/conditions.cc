@@ -142,6 +142,25 @@ namespace
     const auto free = run("--preview --quiet --set 'Supports/foot/Components=x' --output-directory "
                           "free p.prm");
     check("  a body that is free is an error", free.code == 2);
+    // The file is on the list like every other that the program writes.
+    const std::string again = "--preview --quiet --output-directory seen p.prm";
+    check("  on the list", contains(read("seen/.tetradapt-files"), "preview.vtu"));
+    check("  replaced by the next", run(again).code == 0);
+    write("seen/preview.vtu", "changed");
+    const auto changed = run(again);
+    check("  not replaced once it was changed",
+          changed.code == 2 && contains(changed.err, "changed since")
+            && read("seen/preview.vtu") == "changed");
+    fs::create_directory("mine");
+    write("mine/preview.vtu", "mine");
+    for (const std::string what : {"--preview ", ""})
+      {
+        const auto foreign = run(what + "--quiet --output-directory mine p.prm");
+        check(std::string("  somebody else's is refused by a ")
+                + (what.empty() ? "run" : "preview"),
+              foreign.code == 2 && contains(foreign.err, "mine/preview.vtu")
+                && read("mine/preview.vtu") == "mine" && !fs::exists("mine/convergence.csv"));
+      }
   }
 } // namespace
 

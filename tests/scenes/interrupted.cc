@@ -17,28 +17,8 @@ using namespace program;
 
 namespace
 {
-  const std::string start = R"(
-subsection Materials
-  subsection m
-    set Young modulus = 70
-  end
-end
-subsection Supports
-  subsection s
-    set Groups = z-min
-  end
-end
-subsection Loads
-  subsection l
-    set Groups = z-max
-    set Value  = 0; 1; -2
-  end
-end
-subsection Output
-  set Plots = no
-end
-)",
-                    mesh  = "subsection Mesh\n set Type = bricks\n set Cells = 3x2x2\nend\n";
+  const std::string start = loaded_block("0; 1; -2") + "subsection Output\n set Plots = no\nend\n",
+                    mesh  = bricks_section("3x2x2");
 
   /** The program in a process of its own. */
   pid_t
@@ -58,12 +38,6 @@ end
         _exit(127);
       }
     return child;
-  }
-
-  std::string
-  binary()
-  {
-    return std::getenv("TETRADAPT_PROGRAM");
   }
 
   /** Waits until @p holds, at most half a minute. */
@@ -137,7 +111,7 @@ end
         const std::string end = last_line(read("out/log.txt"));
         check("  the log has its end",
               contains(end, "Error: Ended by SIG") && contains(end, " cycles. "));
-        check("  the terminal, too", contains(last_line(read("err.txt")), "error: Ended by SIG"));
+        check("  the terminal, too", contains(last_line(read("err.txt")), "Error: Ended by SIG"));
         const unsigned int n = Table("out").n_rows();
         check("  finished cycles stay",
               n >= 2 && fs::exists("out/cycle_00" + std::to_string((n - 1) % 10) + ".vtu")

@@ -44,18 +44,6 @@ end
            + "\n    set Groups = x-max, y-min, z-max\n    set Value = " + value + "\n  end\nend\n";
   }
 
-  Table
-  table_of(const std::string &name, const std::string &text, const std::string &options)
-  {
-    write(name + ".prm", text);
-    const fs::path folder = fresh(name);
-    const auto     result
-      = run("--quiet --output-directory " + name + " " + options + " " + name + ".prm");
-    if (result.code != 0)
-      std::cout << name << ": exit code " << result.code << '\n' << result.err;
-    return Table(folder);
-  }
-
   void
   equal()
   {

@@ -12,25 +12,7 @@ using namespace program;
 
 namespace
 {
-  const std::string rest   = R"(
-subsection Materials
-  subsection m
-    set Young modulus = 70
-  end
-end
-subsection Supports
-  subsection s
-    set Groups = z-min
-  end
-end
-subsection Loads
-  subsection l
-    set Groups = z-max
-    set Value  = 0; 1; -2
-  end
-end
-)",
-                    bricks = "subsection Mesh\n set Type = bricks\n set Cells = 2x2x2\nend\n";
+  const std::string rest = loaded_block("0; 1; -2"), cube = bricks_section("2x2x2");
 
   /** Runs with a limit of time: nothing may wait for a pipe. */
   Result
@@ -54,7 +36,7 @@ end
       write("uses.prm", content);
       const Result result = run_shortly("uses.prm");
       std::cout << ' ' << result.code
-                << (contains(result.err, "error: ") && !contains(result.err, "unexpected") ? ""
+                << (contains(result.err, "Error: ") && !contains(result.err, "unexpected") ? ""
                                                                                            : "?");
     };
     const Result scene = run_shortly(as(".prm"));
@@ -62,11 +44,11 @@ end
     code("subsection Mesh\n set Type = file\n set Files = " + as(".msh") + "\nend\n" + rest);
     if (in_all_places)
       {
-        code("include f.prm\n" + bricks + rest);
+        code("include f.prm\n" + cube + rest);
         code("subsection Mesh\n set Type = surface\n set Files = " + as(".stl") + "\nend\n" + rest);
         code("subsection Mesh\n set Type = box\n set Size field = " + as(".vtu") + "\nend\n"
              + rest);
-        code(bricks + rest + "subsection Reference\n set Type = run\n set File = f.vtu\nend\n");
+        code(cube + rest + "subsection Reference\n set Type = run\n set File = f.vtu\nend\n");
       }
     std::cout << std::endl;
   }
@@ -93,7 +75,7 @@ end
     write("uses.prm",
           "subsection Mesh\n set Type = surface\n set Files = " + name + ".off\nend\n" + rest);
     std::cout << run_shortly("uses.prm").code << ' ';
-    write("s.prm", bricks + rest);
+    write("s.prm", cube + rest);
     std::cout << run("--quiet --output-directory " + name + " s.prm").code << ' '
               << run("--quiet --output-directory loop s.prm").code << ' '
               << run("--quiet --output-directory loop/below s.prm").code << std::endl;
@@ -108,7 +90,7 @@ end
         const Result result = run_shortly("uses.prm");
         std::cout << result.code << (result.err.size() < 5000 ? " " : " LONG ");
       }
-    write("uses.prm", bricks + rest);
+    write("uses.prm", cube + rest);
     const Result load
       = run_shortly("--set 'Loads/l/Value=0; 0; " + text.substr(0, 100000) + "' uses.prm");
     std::cout << load.code << (load.err.size() < 5000 ? "" : " LONG") << std::endl;
@@ -140,10 +122,10 @@ end
           result.code == 2 && contains(result.err, "\\x1b") && is_harmless(result.err)
             && is_harmless(read("out/log.txt")));
     const std::string name = "a\x1b[31mb\x7f.prm";
-    write(name, bricks + rest);
-    const int status = std::system(("bash -c \"'" + std::string(std::getenv("TETRADAPT_PROGRAM"))
-                                    + "' --output-directory named a?*b?.prm\" >out.txt 2>err.txt")
-                                     .c_str());
+    write(name, cube + rest);
+    const int status = std::system(
+      ("bash -c \"'" + binary() + "' --output-directory named a?*b?.prm\" >out.txt 2>err.txt")
+        .c_str());
     check("the file's own name",
           status == 0 && is_harmless(read("err.txt")) && is_harmless(read("out.txt"))
             && is_harmless(read("named/log.txt")) && contains(read("named/log.txt"), "\\x1b"));
@@ -153,7 +135,7 @@ end
   tables_and_plots()
   {
     write("study.prm",
-          bricks + rest
+          cube + rest
             + "subsection Output\n set VTU = no\nend\n"
               "subsection Study\n subsection f\n  set Parameters = Loads/l/Value\n  set Values = "
               "-1; 0; 0 | 0; 0; 3\n  set Labels = =1+1 | @cmd, x\n end\nend\n");
@@ -163,7 +145,7 @@ end
     check("labels are no formulas", contains(csv, ",'=1+1,") && contains(csv, ",\"'@cmd, x\","));
     check("nor is a value that is none", contains(csv, ",'-1; 0; 0,"));
     write("title.prm",
-          "set Title = It's 5 o'clock: the bar''s \"end\"\n" + bricks + rest
+          "set Title = It's 5 o'clock: the bar''s \"end\"\n" + cube + rest
             + "subsection Adaptivity\n set Strategy = uniform\n set Maximum cycles = 3\nend\n"
               "subsection Output\n set Plots = yes\nend\nsubsection Estimation\n set Estimators = "
               "spr\nend\n");

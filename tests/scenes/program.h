@@ -57,6 +57,26 @@ namespace program
     std::cout << what << ": " << (holds ? "yes" : "NO") << std::endl;
   }
 
+  /** Whether two numbers agree to @p tolerance times the second. */
+  inline bool
+  near(const double a, const double b, const double tolerance)
+  {
+    return std::abs(a - b) <= tolerance * std::abs(b);
+  }
+
+  /** The program's name. */
+  inline std::string
+  binary()
+  {
+    const char *name = std::getenv("TETRADAPT_PROGRAM");
+    if (name == nullptr)
+      {
+        std::cerr << "Set TETRADAPT_PROGRAM to the program's name; ctest does.\n";
+        std::exit(1);
+      }
+    return name;
+  }
+
   struct Result
   {
     int         code;
@@ -68,14 +88,8 @@ namespace program
   inline Result
   run(const std::string &arguments, const std::string &before = "")
   {
-    const char *name = std::getenv("TETRADAPT_PROGRAM");
-    if (name == nullptr)
-      {
-        std::cerr << "Set TETRADAPT_PROGRAM to the program's name; ctest does.\n";
-        std::exit(1);
-      }
     const int status
-      = std::system((before + " '" + name + "' " + arguments + " >out.txt 2>err.txt").c_str());
+      = std::system((before + " '" + binary() + "' " + arguments + " >out.txt 2>err.txt").c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read("out.txt"), read("err.txt")};
   }
 
@@ -197,6 +211,49 @@ namespace program
   {
     fs::remove_all(name);
     return name;
+  }
+
+  /** The table of a run of the scene @p text in a folder called @p name; what goes wrong is
+   * printed. */
+  inline Table
+  table_of(const std::string &name, const std::string &text, const std::string &options)
+  {
+    write(name + ".prm", text);
+    const fs::path folder = fresh(name);
+    const auto     result
+      = run("--quiet --output-directory " + name + " " + options + " " + name + ".prm");
+    if (result.code != 0)
+      std::cout << name << ": exit code " << result.code << '\n' << result.err;
+    return Table(folder);
+  }
+
+  /** The section Mesh of a unit cube in bricks. */
+  inline std::string
+  bricks_section(const std::string &cells)
+  {
+    return "subsection Mesh\n set Type = bricks\n set Cells = " + cells + "\nend\n";
+  }
+
+  /** The rest of a scene: a material, a support at the bottom, a traction @p load at the top. */
+  inline std::string
+  loaded_block(const std::string &load)
+  {
+    return R"(
+subsection Materials
+  subsection m
+    set Young modulus = 1000
+  end
+end
+subsection Supports
+  subsection s
+    set Groups = z-min
+  end
+end
+subsection Loads
+  subsection l
+    set Groups = z-max
+    set Value  = )"
+           + load + "\n  end\nend\n";
   }
 
   /** Names of the files in a folder, sorted, in one line, without the program's list. */

@@ -124,24 +124,6 @@ subsection Output
 end
 )";
 
-  Table
-  table_of(const std::string &name, const std::string &text, const std::string &options)
-  {
-    write(name + ".prm", text);
-    const fs::path folder = fresh(name);
-    const auto     result
-      = run("--quiet --output-directory " + name + " " + options + " " + name + ".prm");
-    if (result.code != 0)
-      std::cout << name << ": exit code " << result.code << '\n' << result.err;
-    return Table(folder);
-  }
-
-  bool
-  near(const double a, const double b, const double tolerance)
-  {
-    return std::abs(a - b) <= tolerance * std::abs(b);
-  }
-
   /** int sigma : C^-1 : sigma of the slab's exact solution. */
   double
   exact_stress_energy()

@@ -26,12 +26,6 @@ namespace
     return Table(folder);
   }
 
-  bool
-  near(const double a, const double b, const double tolerance)
-  {
-    return std::abs(a - b) <= tolerance * std::abs(b);
-  }
-
   /** The figures of two runs, after scaling displacements by @p length and energies by
    * @p energy. */
   bool

@@ -245,8 +245,12 @@ namespace
     scene.loads = {load("half", LoadType::pressure, "z > 1-1e-9 && x < 0.7 && y > 0.25", {{"1"}})};
     core::Log    log;
     unsigned int n_warnings = 0;
-    log.add_sink([&](core::LogLevel level, const std::string &) {
-      n_warnings += level == core::LogLevel::warning;
+    std::string  last_warning;
+    log.add_sink([&](core::LogLevel level, const std::string &text) {
+      if (level != core::LogLevel::warning)
+        return;
+      ++n_warnings;
+      last_warning = text;
     });
     const auto grid = solve::make_hexahedral_grid(scene,
                                                   *mesh_of([&] {
@@ -265,6 +269,17 @@ namespace
       return;
     check("planes where a selection ends: area", area, .7 * .75, 1., 1e-6);
     check("the border is cut into the tetrahedra: same area, no warning", n_warnings == 0);
+    // Bricks cannot be cut: their triangles select other parts of the side than the hexahedra do.
+    auto bricks         = scene;
+    bricks.mesh.source  = scene::MeshSource::bricks;
+    bricks.mesh.cells   = {{{4, 2, 2}}};
+    const auto as_whole = mesh_of(bricks);
+    n_warnings          = 0;
+    solve::make_hexahedral_grid(bricks, *as_whole, log);
+    check("bricks select whole triangles: one warning", n_warnings == 1);
+    check("  that names the load, its area here and there",
+          last_warning.find("Loads/half selects an area of 0.525 ") != std::string::npos
+            && last_warning.find("but of 0.25 on the scene's first mesh") != std::string::npos);
     const auto refuse = [&](const std::string &what) {
       print_refusal(what, [&] {
         auto fine      = scene;

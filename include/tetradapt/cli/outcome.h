@@ -25,7 +25,7 @@ namespace tetradapt::cli
   Outcome
   attempt(const std::function<void()> &action);
 
-  /** Prints @p message as "error: ..." to stderr, made printable. */
+  /** Prints @p message as "Error: ..." to stderr, made printable. */
   void
   print_error(const std::string &message);
 
@@ -36,7 +36,7 @@ namespace tetradapt::cli
 
   /**
    * Makes all ranks agree on how a collective action ended, and prints the error
-   * of the first rank that has one as "error: ..." to stderr. Collective.
+   * of the first rank that has one as "Error: ..." to stderr. Collective.
    *
    * A rank that failed alone leaves the others waiting in some collective call;
    * if they do not come here within @p patience seconds, its error is printed and

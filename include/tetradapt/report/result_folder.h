@@ -90,7 +90,8 @@ namespace tetradapt::report
      * Puts @p name ("results.csv", "plots/ren.svg") on the list before it is written, and
      * makes the folder that it lies in.
      * @return the path to write to.
-     * @throws InputError if a file of this name is there that is not on the list.
+     * @throws InputError if a file of this name is there that is not on the list, or that
+     * was changed since an earlier run wrote it.
      */
     std::string
     prepare(const std::string &name);

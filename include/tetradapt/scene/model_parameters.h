@@ -21,16 +21,19 @@ namespace dealii
 namespace tetradapt::scene
 {
   /**
-   * Which boundary faces (or, for loads on the body, which regions) something
-   * acts on. A face is selected if its boundary id or its named group is listed
-   * (or if neither list is given) and, if an expression is given, the expression
-   * holds at its three vertices and its centroid.
+   * Which part of the boundary (or, for loads on the body, which regions) something acts on:
+   * the faces whose boundary id or named group is listed (all, if neither list is given), and
+   * of them the part on which the condition holds, if one is given. The border of that part is
+   * cut into the surface of a box, of blocks and of a surface file before it is meshed
+   * (geometry::cut_surface()), so that each face lies inside or outside as a whole. Meshes
+   * that cannot be cut are selected face by face: where the condition holds at the three
+   * vertices and the centroid. See doc/selections.md.
    */
   struct Selector
   {
     std::vector<int>         ids;
     std::vector<std::string> groups;
-    std::string              where; ///< expression in x, y, z; empty: everywhere
+    std::string              where; ///< condition in x, y, z; empty: everywhere
 
     bool
     empty() const
