@@ -3,7 +3,7 @@
 
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/surface_expression.h"
-#include "tetradapt/mechanics/supports.h"
+#include "tetradapt/mechanics/point_conditions.h"
 #include "tetradapt/mesh/true_surface.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -217,6 +217,9 @@ namespace tetradapt::mechanics
           break;
         case scene::LoadType::nodal_force:
           add_node_load(load, mesh, forces);
+          break;
+        case scene::LoadType::point_force:
+          add_point_force(load, mesh, forces);
           break;
         case scene::LoadType::body_force:
         case scene::LoadType::gravity:
