@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/adapt/cycle_estimates.h"
 
+#include "tetradapt/compare/stress_difference.h"
 #include "tetradapt/estimate/goal_functional.h"
 
 #include <algorithm>
@@ -31,6 +32,22 @@ namespace tetradapt::adapt
         if (std::find(wanted.begin(), wanted.end(), which) == wanted.end())
           wanted.push_back(which);
       return wanted;
+    }
+
+    /** Takes what errors leave out from an estimate. Global values of comparisons do not have it.
+     */
+    void
+    leave_out(const estimate::Comparison      &comparison,
+              const estimate::EstimatorTraits &traits,
+              estimate::Estimate              &estimate)
+    {
+      const compare::ExcludedRegion &excluded = comparison.excluded_region();
+      if (excluded.empty())
+        return;
+      excluded.clear(comparison.displacement().mesh(), estimate.indicators);
+      if (traits.is_energy_norm && !traits.needs_reference && !traits.needs_exact_displacement
+          && !estimate.indicators.empty())
+        estimate.global = compare::root_of_squares(estimate.indicators);
     }
 
     EstimateRecord
@@ -133,12 +150,17 @@ namespace tetradapt::adapt
       {
         const auto start     = Clock::now();
         const auto estimator = estimate::make_estimator(which);
-        const auto estimate
+        auto       estimate
           = estimator->estimate({cycle.comparison, sources.scene, cycle.solution, cycle.levels});
+        leave_out(cycle.comparison, estimator->traits(), estimate);
         const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
         const bool   drives  = driven && which == sources.scene.adaptivity.refinement_indicator;
         if (drives)
-          indicators = estimate.indicators;
+          {
+            indicators = estimate.indicators;
+            cycle.comparison.excluded_region().continue_into(cycle.comparison.displacement().mesh(),
+                                                             indicators);
+          }
         if (estimate.missing)
           continue;
         KnownError comparable = known.source == which ? KnownError() : known;

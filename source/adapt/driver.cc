@@ -2,6 +2,7 @@
 #include "tetradapt/adapt/driver.h"
 
 #include "tetradapt/adapt/cycle_estimates.h"
+#include "tetradapt/adapt/left_out.h"
 #include "tetradapt/adapt/placement.h"
 #include "tetradapt/adapt/solution_record.h"
 #include "tetradapt/core/exceptions.h"
@@ -124,6 +125,12 @@ namespace tetradapt::adapt
     predicted_error = 0.;
     log.info((number == 0 ? "Mesh: " : "Mesh " + std::to_string(number) + ": ")
              + describe_mesh(*mesh, current.record));
+    if (number == 0)
+      {
+        excluded = compare::ExcludedRegion(scene, *mesh);
+        for (const auto &text : describe_left_out(left_out_of(excluded, *mesh)))
+          log.info(text);
+      }
   }
 
   void
@@ -146,10 +153,11 @@ namespace tetradapt::adapt
       return;
     const auto scope = timer.scope("reference");
     reference        = std::make_unique<compare::Reference>(
-      compare::make_reference(scene, *materials, mesh, communicator, log));
+      compare::make_reference(scene, *materials, mesh, communicator, log, excluded));
     sampling = std::make_shared<compare::ReferenceSampling>(reference->displacement,
                                                             *materials,
-                                                            communicator);
+                                                            communicator,
+                                                            excluded);
     std::ostringstream text;
     text << "Reference: " << reference->description << "; estimated relative energy error ";
     const mechanics::EnergyNorm norm{sampling->energy_norm(), sampling->energy_noise()};
@@ -183,8 +191,9 @@ namespace tetradapt::adapt
   Driver::solve_cycle(unsigned int number)
   {
     Cycle cycle;
-    cycle.record.cycle = number;
-    cycle.record.mesh  = current.record;
+    cycle.record.cycle    = number;
+    cycle.record.mesh     = current.record;
+    cycle.record.left_out = left_out_of(excluded, *mesh);
     std::shared_ptr<const solve::StaticSystem> system;
     {
       const auto                scope = timer.scope("solve");
@@ -229,8 +238,14 @@ namespace tetradapt::adapt
     if (keeps_system)
       cycle.solution.system = system;
     system.reset();
-    cycle.comparison = std::make_unique<estimate::Comparison>(
-      cycle.solution.displacement, *materials, scene.exact_solution, sampling, communicator);
+    cycle.solution.norm = norm_outside(
+      *cycle.solution.displacement, *materials, excluded, cycle.solution.norm, communicator);
+    cycle.comparison = std::make_unique<estimate::Comparison>(cycle.solution.displacement,
+                                                              *materials,
+                                                              scene.exact_solution,
+                                                              sampling,
+                                                              communicator,
+                                                              excluded);
     return cycle;
   }
 
@@ -360,6 +375,7 @@ namespace tetradapt::adapt
     context.true_energy_error = is_true(cycle.record.error_source);
     context.true_ren          = plan.needs(Plan::exact_comparison);
     context.goal              = scene.estimation.goal;
+    context.leaves_out        = !excluded.empty();
     context.n_meshes          = scene.mesh.n_meshes();
     context.elapsed_seconds   = timer.total_wall();
     if (reference != nullptr)

@@ -66,6 +66,8 @@ namespace tetradapt::compare
             break;
           case scene::LoadType::temperature:
             break; // not a force: its stress is part of the law's
+          case scene::LoadType::point_force:
+            break; // no force per area or volume
           }
       }
   }

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/adapt/left_out.h"
+
+#include "tetradapt/compare/reference_sampling.h"
+
+namespace tetradapt::adapt
+{
+  std::vector<LeftOutRecord>
+  left_out_of(const compare::ExcludedRegion &excluded, const mesh::TetMesh &mesh)
+  {
+    std::vector<LeftOutRecord> records;
+    excluded.cells(mesh); // throws
+    for (const auto &part : excluded.all_parts())
+      {
+        LeftOutRecord record;
+        record.name     = part.name;
+        record.radius   = part.radius;
+        record.is_force = part.is_force;
+        if (part.radius > 0.)
+          {
+            record.place = part.text();
+            for (const auto &cell : mesh.cells)
+              {
+                mesh::Point<3> middle;
+                for (const unsigned int v : cell)
+                  middle += mesh.points[v] / 4.;
+                record.n_cells += part.contains(middle) ? 1 : 0;
+              }
+          }
+        records.push_back(record);
+      }
+    return records;
+  }
+
+  std::vector<std::string>
+  describe_left_out(const std::vector<LeftOutRecord> &left_out)
+  {
+    std::vector<std::string> texts;
+    for (const LeftOutRecord &part : left_out)
+      {
+        std::string text = part.name;
+        text += part.is_force
+                  ? ": the energy of a force at a point does not converge there, but grows without "
+                    "limit as the mesh is refined."
+                  : ": where its reaction is not zero, the energy of a support at a point or on a "
+                    "line does not converge, but grows without limit as the mesh is refined.";
+        text += part.radius > 0. ? " Errors and estimates leave out what is " + part.place
+                                     + ", now " + std::to_string(part.n_cells) + " tetrahedra."
+                                 : " Errors and estimates leave nothing out (Excluded radius = 0).";
+        texts.push_back(text);
+      }
+    return texts;
+  }
+
+  mechanics::EnergyNorm
+  norm_outside(const mesh::NodalField        &displacement,
+               const mechanics::MaterialMap  &materials,
+               const compare::ExcludedRegion &excluded,
+               const mechanics::EnergyNorm   &whole,
+               const MPI_Comm                 communicator)
+  {
+    if (excluded.empty())
+      return whole;
+    // Shares nothing: the sampling does not outlive this call.
+    const std::shared_ptr<const mesh::NodalField> borrowed(std::shared_ptr<void>(), &displacement);
+    mechanics::EnergyNorm                         norm = whole;
+    norm.value
+      = compare::ReferenceSampling(borrowed, materials, communicator, excluded).energy_norm();
+    return norm;
+  }
+} // namespace tetradapt::adapt
