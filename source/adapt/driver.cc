@@ -234,6 +234,8 @@ namespace tetradapt::adapt
         = describe_solution(*system, cycle.solution, *materials, communicator, cycle.record);
       if (!warning.empty())
         log.warning(warning);
+      for (const auto &text : reaction_warnings(cycle.record))
+        log.warning("cycle " + std::to_string(number) + ": " + text);
     }
     if (keeps_system)
       cycle.solution.system = system;

@@ -3,6 +3,8 @@
 
 #include "tetradapt/compare/reference_sampling.h"
 
+#include <sstream>
+
 namespace tetradapt::adapt
 {
   std::vector<LeftOutRecord>
@@ -44,11 +46,41 @@ namespace tetradapt::adapt
                     "limit as the mesh is refined."
                   : ": where its reaction is not zero, the energy of a support at a point or on a "
                     "line does not converge, but grows without limit as the mesh is refined.";
-        text += part.radius > 0. ? " Errors and estimates leave out what is " + part.place
-                                     + ", now " + std::to_string(part.n_cells) + " tetrahedra."
-                                 : " Errors and estimates leave nothing out (Excluded radius = 0).";
+        if (part.radius > 0.)
+          text += " Errors and estimates leave out what is " + part.place + ", now "
+                  + (part.n_cells > 0
+                       ? std::to_string(part.n_cells)
+                           + (part.n_cells == 1 ? " tetrahedron." : " tetrahedra.")
+                       : "no tetrahedron: those there are larger than that, and count.");
+        else if (part.is_force)
+          text += " Errors and estimates leave nothing out (Excluded radius = 0).";
+        else
+          continue; // it is to carry nothing: see reaction_warnings()
         texts.push_back(text);
       }
+    return texts;
+  }
+
+  std::vector<std::string>
+  reaction_warnings(const CycleRecord &record)
+  {
+    constexpr double         nothing = 1e-6; // of all forces
+    std::vector<std::string> texts;
+    for (const LeftOutRecord &part : record.left_out)
+      if (part.radius == 0. && !part.is_force && record.equilibrium)
+        for (const solve::ActingForce &support : record.equilibrium->supports)
+          {
+            const double force = support.resultant.force.norm();
+            if ("Supports/" + support.name != part.name
+                || force <= nothing * record.equilibrium->force_scale)
+              continue;
+            std::ostringstream text;
+            text.precision(3);
+            text << part.name << " has a reaction of " << force
+                 << ": the energy does not converge there, but errors and estimates leave nothing "
+                    "out, for its Excluded radius is 0. Give it a radius, or loads in balance.";
+            texts.push_back(text.str());
+          }
     return texts;
   }
 

@@ -8,6 +8,7 @@
 #include "tetradapt/mesh/boundary_projection.h"
 #include "tetradapt/mesh/kept_places.h"
 #include "tetradapt/mesh/mesh_checks.h"
+#include "tetradapt/scene/mistakes.h"
 
 #include <algorithm>
 #include <limits>
@@ -297,8 +298,9 @@ namespace tetradapt::mesh
     const Boundary                      boundary(plc, projection);
     std::vector<KeptPlace>              kept = places;
     std::vector<geometry::SurfacePlace> wanted;
+    scene::Mistakes                     mistakes;
     for (KeptPlace &place : kept)
-      {
+      mistakes.attempt([&]() {
         if (place.is_line())
           check_line(boundary, place);
         else
@@ -306,7 +308,8 @@ namespace tetradapt::mesh
         for (const Point<3> &end : place.ends)
           warn_of_depth(boundary, place, end, log);
         wanted.push_back(place.ends);
-      }
+      });
+    mistakes.throw_together();
     const FacetTriangles triangles(plc);
     const auto           none = [](const Point<3> &) { return 0.; };
     Complex              result

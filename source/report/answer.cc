@@ -229,7 +229,10 @@ namespace tetradapt::report
           {
             text += entry(first ? "errors leave out" : "",
                           "what is " + part.place + " (" + part.name + "), "
-                            + std::to_string(part.n_cells) + " tetrahedra");
+                            + (part.n_cells == 0
+                                 ? "where tetrahedra are larger: none yet"
+                                 : std::to_string(part.n_cells)
+                                     + (part.n_cells == 1 ? " tetrahedron" : " tetrahedra")));
             first = false;
           }
       return text;

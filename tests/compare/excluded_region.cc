@@ -9,6 +9,8 @@
 
 #include "test_meshes.h"
 
+#include <deal.II/base/mpi.h>
+
 #include <cmath>
 #include <iostream>
 

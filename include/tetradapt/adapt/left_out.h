@@ -4,6 +4,7 @@
 
 #include "tetradapt/adapt/observer.h"
 #include "tetradapt/compare/excluded_region.h"
+#include "tetradapt/mechanics/energy_norm.h"
 
 #include <mpi.h>
 
@@ -14,9 +15,15 @@ namespace tetradapt::adapt
   std::vector<LeftOutRecord>
   left_out_of(const compare::ExcludedRegion &excluded, const mesh::TetMesh &mesh);
 
-  /** What to tell the user when the first mesh is made, a message each. */
+  /** What to tell the user when the first mesh is made, a message each; nothing of supports around
+   * which nothing is left out. */
   std::vector<std::string>
   describe_left_out(const std::vector<LeftOutRecord> &left_out);
+
+  /** Warnings of supports at points or on lines whose Excluded radius is 0, but which carry
+   * something in the cycle of @p record. */
+  std::vector<std::string>
+  reaction_warnings(const CycleRecord &record);
 
   /**
    * What relative errors are relative to, without what is left out: the root of the stress energy
