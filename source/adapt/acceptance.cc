@@ -2,6 +2,7 @@
 #include "tetradapt/adapt/acceptance.h"
 
 #include "tetradapt/core/expression.h"
+#include "tetradapt/scene/singular_places.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,6 +50,8 @@ namespace tetradapt::adapt
   {
     if (scene.formulation == scene::Formulation::mixed)
       return "a solution in mixed form does not minimise the energy";
+    if (const std::string place = scene::first_singular_place(scene); !place.empty())
+      return "the energy of " + place + " grows without limit as the mesh is refined";
     for (const auto &load : scene.loads)
       if (load.type == scene::LoadType::nodal_force)
         return "the forces at nodes of Loads/" + load.name + " grow with the mesh";

@@ -35,6 +35,22 @@ namespace tetradapt::adapt
       return wanted;
     }
 
+    /** Takes what errors leave out from an estimate. Global values of comparisons do not have it.
+     */
+    void
+    leave_out(const estimate::Comparison      &comparison,
+              const estimate::EstimatorTraits &traits,
+              estimate::Estimate              &estimate)
+    {
+      const compare::ExcludedRegion &excluded = comparison.excluded_region();
+      if (excluded.empty())
+        return;
+      excluded.clear(comparison.displacement().mesh(), estimate.indicators);
+      if (traits.is_energy_norm && !traits.needs_reference && !traits.needs_exact_displacement
+          && !estimate.indicators.empty())
+        estimate.global = compare::root_of_squares(estimate.indicators);
+    }
+
     EstimateRecord
     to_record(const estimate::EstimatorTraits &traits,
               const estimate::Estimate        &estimate,
@@ -164,14 +180,17 @@ namespace tetradapt::adapt
       {
         const auto start     = Clock::now();
         const auto estimator = estimate::make_estimator(which);
-        const auto estimate
+        auto       estimate
           = estimator->estimate({cycle.comparison, sources.scene, cycle.solution, cycle.levels});
+        leave_out(cycle.comparison, estimator->traits(), estimate);
         const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
         const bool   drives  = driven && which == sources.scene.adaptivity.refinement_indicator;
         if (drives)
           {
             indicators = estimate.indicators;
             add_oscillations(sources, cycle, estimator->traits(), record, indicators);
+            cycle.comparison.excluded_region().continue_into(cycle.comparison.displacement().mesh(),
+                                                             indicators);
           }
         if (estimate.missing)
           continue;

@@ -2,6 +2,7 @@
 #include "tetradapt/adapt/driver.h"
 
 #include "tetradapt/adapt/cycle_estimates.h"
+#include "tetradapt/adapt/left_out.h"
 #include "tetradapt/adapt/load_record.h"
 #include "tetradapt/adapt/placement.h"
 #include "tetradapt/adapt/solution_record.h"
@@ -129,6 +130,12 @@ namespace tetradapt::adapt
     predicted_error = 0.;
     log.info((number == 0 ? "Mesh: " : "Mesh " + std::to_string(number) + ": ")
              + describe_mesh(*mesh, current.record));
+    if (number == 0)
+      {
+        excluded = compare::ExcludedRegion(scene, *mesh);
+        for (const auto &text : describe_left_out(left_out_of(excluded, *mesh)))
+          log.info(text);
+      }
   }
 
   void
@@ -151,10 +158,11 @@ namespace tetradapt::adapt
       return;
     const auto scope = timer.scope("reference");
     reference        = std::make_unique<compare::Reference>(
-      compare::make_reference(scene, *materials, mesh, communicator, log));
+      compare::make_reference(scene, *materials, mesh, communicator, log, excluded));
     sampling = std::make_shared<compare::ReferenceSampling>(reference->displacement,
                                                             *materials,
-                                                            communicator);
+                                                            communicator,
+                                                            excluded);
     std::ostringstream text;
     text << "Reference: " << reference->description << "; estimated relative energy error ";
     const mechanics::EnergyNorm norm{sampling->energy_norm(), sampling->energy_noise()};
@@ -188,8 +196,9 @@ namespace tetradapt::adapt
   Driver::solve_cycle(unsigned int number)
   {
     Cycle cycle;
-    cycle.record.cycle = number;
-    cycle.record.mesh  = current.record;
+    cycle.record.cycle    = number;
+    cycle.record.mesh     = current.record;
+    cycle.record.left_out = left_out_of(excluded, *mesh);
     std::shared_ptr<const solve::StaticSystem> system;
     {
       const auto                scope = timer.scope("solve");
@@ -238,12 +247,20 @@ namespace tetradapt::adapt
         = describe_solution(*system, cycle.solution, *materials, communicator, cycle.record);
       if (!warning.empty())
         log.warning(warning);
+      for (const auto &text : reaction_warnings(cycle.record))
+        log.warning("cycle " + std::to_string(number) + ": " + text);
     }
     if (keeps_system)
       cycle.solution.system = system;
     system.reset();
-    cycle.comparison = std::make_unique<estimate::Comparison>(
-      cycle.solution.displacement, *materials, scene.exact_solution, sampling, communicator);
+    cycle.solution.norm = norm_outside(
+      *cycle.solution.displacement, *materials, excluded, cycle.solution.norm, communicator);
+    cycle.comparison = std::make_unique<estimate::Comparison>(cycle.solution.displacement,
+                                                              *materials,
+                                                              scene.exact_solution,
+                                                              sampling,
+                                                              communicator,
+                                                              excluded);
     return cycle;
   }
 
@@ -405,6 +422,7 @@ namespace tetradapt::adapt
     context.true_energy_error = is_true(cycle.record.error_source);
     context.true_ren          = plan.needs(Plan::exact_comparison);
     context.goal              = scene.estimation.goal;
+    context.leaves_out        = !excluded.empty();
     context.n_meshes          = scene.mesh.n_meshes();
     context.elapsed_seconds   = timer.total_wall();
     if (reference != nullptr)

@@ -187,8 +187,12 @@ namespace tetradapt::adapt
     // Back to the mesh of the last accepted cycle, whose solution is still there.
     Cycle &cycle     = *accepted;
     mesh             = cycle.solution.displacement->shared_mesh();
-    cycle.comparison = std::make_unique<estimate::Comparison>(
-      cycle.solution.displacement, *materials, scene.exact_solution, sampling, communicator);
+    cycle.comparison = std::make_unique<estimate::Comparison>(cycle.solution.displacement,
+                                                              *materials,
+                                                              scene.exact_solution,
+                                                              sampling,
+                                                              communicator,
+                                                              excluded);
     ++n_rejected;
     StopDecision decision;
     if (n_rejected == 1)

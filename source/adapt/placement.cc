@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/adapt/placement.h"
 
+#include "tetradapt/compare/excluded_region.h"
 #include "tetradapt/estimate/goal_points.h"
 #include "tetradapt/mechanics/held_loads.h"
+#include "tetradapt/mechanics/point_conditions.h"
 
 namespace tetradapt::adapt
 {
@@ -13,6 +15,17 @@ namespace tetradapt::adapt
   {
     for (const auto &warning : mechanics::held_load_warnings(scene, *mesh))
       log.warning(scene.with_place(warning));
+    for (const auto &warning : mechanics::held_point_force_warnings(scene, *mesh))
+      log.warning(scene.with_place(warning));
+    for (const auto &goal : scene.goals)
+      if (goal.type == scene::GoalType::point_displacement
+          || goal.type == scene::GoalType::point_stress)
+        for (const auto &part : compare::ExcludedRegion(scene, *mesh).all_parts())
+          if (part.contains(goal.point))
+            log.warning(scene.with_place(
+              "Goals/" + goal.name + "/Point: it lies " + part.text() + ", where " + part.name
+              + " acts and the solution need not converge: neither need the goal's value. Move it "
+                "away."));
     for (const auto &warning : estimate::check_goal_points(scene, mesh))
       log.warning(scene.with_place(warning));
   }

@@ -163,6 +163,8 @@ namespace tetradapt::adapt
         text += "; the reference's own error is not known, so this holds only relative to it";
       else if (by_reference && trust == ReferenceTrust::doubtful)
         text += "; the reference is less than three times better, so the figure is rough";
+      if (context.leaves_out && (energy_wanted || ren_wanted))
+        text += "; what is near point forces and supports at points or lines is left out";
       decision.reason  = StopReason::tolerance;
       decision.success = true;
       decision.text    = text + ".";

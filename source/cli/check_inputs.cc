@@ -129,7 +129,10 @@ namespace tetradapt::cli
       scene::Mistakes found;
       check_all_names(scene, outline, found);
       if (!given)
-        check_conditions(scene, outline, found, log);
+        {
+          check_conditions(scene, outline, found, log);
+          mesh::check_kept_places(scene, number, found);
+        }
       if (given && found.empty())
         check_given_mesh(scene, number, found, log);
       else if (!given)

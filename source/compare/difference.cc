@@ -132,7 +132,8 @@ namespace tetradapt::compare
     const FieldEvaluator    evaluator(u_h);
     ReferenceCell           ref_cell(reference, rule);
 
-    Difference result;
+    Difference              result;
+    const std::vector<bool> left_out = sampling.excluded().cells(u_h.mesh());
     // The cells' energies, how many points each holds, then the global sums: one
     // message.
     std::vector<double> sums(2 * std::size_t(n_cells) + 2, 0.);
@@ -144,8 +145,10 @@ namespace tetradapt::compare
         ref_cell.reinit(cell);
         for (unsigned int q = 0; q < rule.points.size(); ++q)
           {
-            const Location at    = locator.locate(position(ref_mesh, cell, rule.points[q]), hint);
-            hint                 = at.cell;
+            const Location at = locator.locate(position(ref_mesh, cell, rule.points[q]), hint);
+            hint              = at.cell;
+            if (left_out[at.cell])
+              continue;
             const Tensor<1, 3> u = ref_cell.value(q) - evaluator.value(at.cell, at.barycentric);
             const Tensor<2, 3> G
               = ref_cell.gradient(q) - evaluator.gradient(at.cell, at.barycentric);
@@ -169,7 +172,7 @@ namespace tetradapt::compare
     for (unsigned int cell = 0; cell < n_cells; ++cell)
       {
         energy += sums[cell];
-        if (sums[n_cells + cell] == 0.)
+        if (sums[n_cells + cell] == 0. && !left_out[cell])
           unsampled.push_back(cell);
       }
     result.l2                = std::sqrt(sums[2 * std::size_t(n_cells)]);

@@ -44,7 +44,8 @@ namespace tetradapt::compare
   difference_to_exact(const mesh::NodalField               &u_h,
                       const scene::ExactSolutionParameters &exact_solution,
                       const mechanics::MaterialMap         &materials,
-                      MPI_Comm                              communicator)
+                      MPI_Comm                              communicator,
+                      const ExcludedRegion                 &excluded)
   {
     const mesh::TetMesh &mesh    = u_h.mesh();
     const unsigned int   n_cells = mesh.n_cells();
@@ -57,11 +58,14 @@ namespace tetradapt::compare
     std::vector<double> sums(7, 0.);
 
     together(communicator, [&] {
-      const ExactSolution  exact(exact_solution);
-      const FieldEvaluator evaluator(u_h);
-      const bool           thermal = materials.has_thermal_strain();
+      const std::vector<bool> left_out = excluded.cells(mesh);
+      const ExactSolution     exact(exact_solution);
+      const FieldEvaluator    evaluator(u_h);
+      const bool              thermal = materials.has_thermal_strain();
       for (unsigned int cell = slice.begin; cell < slice.end; ++cell)
         {
+          if (left_out[cell])
+            continue;
           const mechanics::EnergyDensity density(materials, mesh.regions[cell]);
           const double                   volume = mesh::cell_volume(mesh, cell);
           const auto                     h      = heights(mesh, cell);

@@ -5,6 +5,7 @@
 #include "tetradapt/compare/reference_cache.h"
 #include "tetradapt/compare/reference_key.h"
 #include "tetradapt/compare/reference_mesh.h"
+#include "tetradapt/compare/stress_difference.h"
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/on_first_rank.h"
 #include "tetradapt/mesh/mesh_broadcast.h"
@@ -49,12 +50,28 @@ namespace tetradapt::compare
       return text.str();
     }
 
+    /** By recovery, without what is left out. */
+    double
+    own_error(const mesh::NodalField       &displacement,
+              const mechanics::MaterialMap &materials,
+              MPI_Comm                      communicator,
+              const scene::Scene           *scene,
+              const ExcludedRegion         &excluded)
+    {
+      auto estimate = recovery_estimate(displacement, materials, communicator, scene);
+      if (excluded.empty())
+        return estimate.global;
+      excluded.clear(displacement.mesh(), estimate.cell_energy);
+      return root_of_squares(estimate.cell_energy);
+    }
+
     Reference
     solve_reference(const scene::Scene           &scene,
                     const mechanics::MaterialMap &materials,
                     const mesh::TetMesh          &initial_mesh,
                     MPI_Comm                      communicator,
-                    const core::Log              &log)
+                    const core::Log              &log,
+                    const ExcludedRegion         &excluded)
     {
       const auto mesh = mesh::make_on_first_rank(communicator, [&] {
         return reference_mesh(scene, initial_mesh, log);
@@ -66,7 +83,7 @@ namespace tetradapt::compare
       reference.energy                  = solution.energy;
       log.progress("reference: estimating its error");
       reference.estimated_error
-        = recovery_estimate(*solution.displacement, materials, communicator, &scene).global;
+        = own_error(*solution.displacement, materials, communicator, &scene, excluded);
       const Route route = scene.reference.route;
       reference.description
         = describe(*solution.displacement,
@@ -247,7 +264,8 @@ namespace tetradapt::compare
                    const mechanics::MaterialMap &materials,
                    const mesh::TetMesh          &initial_mesh,
                    MPI_Comm                      communicator,
-                   const core::Log              &log)
+                   const core::Log              &log,
+                   const ExcludedRegion         &excluded)
     {
       const auto  start = Clock::now();
       std::string file, key;
@@ -263,7 +281,7 @@ namespace tetradapt::compare
         }
       reference         = scene.reference.type == scene::ReferenceParameters::Type::hexahedra
                             ? solve_hexahedra(scene, materials, initial_mesh, communicator, log)
-                            : solve_reference(scene, materials, initial_mesh, communicator, log);
+                            : solve_reference(scene, materials, initial_mesh, communicator, log, excluded);
       reference.seconds = seconds_since(start);
       if (scene.reference.cache)
         core::on_first_rank(communicator, [&] { store(file, key, reference, log); });
@@ -274,7 +292,8 @@ namespace tetradapt::compare
     reference_of_run(const scene::Scene           &scene,
                      const mechanics::MaterialMap &materials,
                      MPI_Comm                      communicator,
-                     const core::Log              &log)
+                     const core::Log              &log,
+                     const ExcludedRegion         &excluded)
     {
       const std::string                &file = scene.reference.file;
       mesh::TetMesh                     mesh;
@@ -293,7 +312,7 @@ namespace tetradapt::compare
       Reference  reference;
       reference.displacement.tetrahedra = field;
       reference.energy          = solve::compute_energies(*field, materials, communicator).energy;
-      reference.estimated_error = recovery_estimate(*field, materials, communicator).global;
+      reference.estimated_error = own_error(*field, materials, communicator, nullptr, excluded);
       reference.description     = describe(*field, "read from " + file);
       return reference;
     }
@@ -324,15 +343,17 @@ namespace tetradapt::compare
                  const mechanics::MaterialMap        &materials,
                  std::shared_ptr<const mesh::TetMesh> initial_mesh,
                  MPI_Comm                             communicator,
-                 const core::Log                     &log)
+                 const core::Log                     &log,
+                 const ExcludedRegion                &excluded)
   {
     const auto start = Clock::now();
     if (scene.reference.type == scene::ReferenceParameters::Type::none)
       throw core::InputError("A reference is needed, but Reference/Type is none.");
-    Reference reference = scene.reference.type == scene::ReferenceParameters::Type::run
-                            ? reference_of_run(scene, materials, communicator, log)
-                            : fine_reference(scene, materials, *initial_mesh, communicator, log);
-    reference.seconds   = seconds_since(start);
+    Reference reference
+      = scene.reference.type == scene::ReferenceParameters::Type::run
+          ? reference_of_run(scene, materials, communicator, log, excluded)
+          : fine_reference(scene, materials, *initial_mesh, communicator, log, excluded);
+    reference.seconds = seconds_since(start);
     if (reference.displacement.tetrahedra != nullptr)
       compare_bodies(reference.displacement.tetrahedra->mesh(), *initial_mesh, log);
     return reference;

@@ -69,6 +69,21 @@ namespace tetradapt::compare
       text("where", selector.where);
     }
 
+    /** Nothing where there is no place: keys of other scenes stay as they are. */
+    void
+    describe(CanonicalText &text, const scene::PlaceParameters &place)
+    {
+      if (place.point)
+        text("point", *place.point);
+      if (place.line)
+        {
+          text("from", place.line->first);
+          text("to", place.line->second);
+        }
+      if (place.is_set())
+        text("radius", place.excluded_radius.value_or(-1.));
+    }
+
     void
     describe_model(CanonicalText &text, const scene::Scene &scene)
     {
@@ -88,6 +103,7 @@ namespace tetradapt::compare
         {
           text("support", support.name);
           describe(text, support.selector);
+          describe(text, support.place);
           text.list("components", support.components);
           text.list("displacement", support.displacement);
         }
@@ -96,6 +112,7 @@ namespace tetradapt::compare
           text("load", load.name);
           text("type", static_cast<int>(load.type));
           describe(text, load.selector);
+          describe(text, load.place);
           text.list("value", load.value);
         }
       text("solver", static_cast<int>(scene.solver.type));

@@ -9,14 +9,18 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace tetradapt::compare
 {
   ReferenceSampling::ReferenceSampling(const ReferenceField         &reference,
                                        const mechanics::MaterialMap &materials,
-                                       MPI_Comm                      communicator)
-    : field(reference), material_map(materials), mpi_communicator(communicator)
+                                       MPI_Comm                      communicator,
+                                       ExcludedRegion                excluded)
+    : field(reference), material_map(materials), mpi_communicator(communicator),
+      region(std::move(excluded))
   {
     std::vector<double> sums(4, 0.);
     if (hexahedra() != nullptr)
@@ -30,8 +34,12 @@ namespace tetradapt::compare
 
   ReferenceSampling::ReferenceSampling(std::shared_ptr<const mesh::NodalField> reference,
                                        const mechanics::MaterialMap           &materials,
-                                       MPI_Comm                                communicator)
-    : ReferenceSampling(ReferenceField{std::move(reference), nullptr}, materials, communicator)
+                                       MPI_Comm                                communicator,
+                                       ExcludedRegion                          excluded)
+    : ReferenceSampling(ReferenceField{std::move(reference), nullptr},
+                        materials,
+                        communicator,
+                        std::move(excluded))
   {
   }
 
@@ -45,8 +53,12 @@ namespace tetradapt::compare
     std::vector<Point<3>> centroids(n_cells);
     for (unsigned int cell = 0; cell < n_cells; ++cell)
       centroids[cell] = position(mesh, cell, {{.25, .25, .25, .25}});
-    const auto order = mesh::SpaceCurve(box.first, box.second).order(centroids);
-    cells.assign(order.begin() + slice.begin, order.begin() + slice.end);
+    const auto              order    = mesh::SpaceCurve(box.first, box.second).order(centroids);
+    const std::vector<bool> left_out = region.cells(mesh);
+    std::copy_if(order.begin() + slice.begin,
+                 order.begin() + slice.end,
+                 std::back_inserter(cells),
+                 [&](const unsigned int cell) { return !left_out[cell]; });
 
     // Exact for the gradient's square (degree 2) and the value's (degree 4); temperatures
     // are expressions.

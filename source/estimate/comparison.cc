@@ -9,9 +9,10 @@ namespace tetradapt::estimate
                          const mechanics::MaterialMap                     &materials,
                          const scene::ExactSolutionParameters             &exact_solution,
                          std::shared_ptr<const compare::ReferenceSampling> sampling,
-                         const MPI_Comm                                    communicator)
+                         const MPI_Comm                                    communicator,
+                         compare::ExcludedRegion                           excluded)
     : u_h(std::move(displacement)), materials(materials), exact_solution(exact_solution),
-      sampling(std::move(sampling)), communicator(communicator)
+      sampling(std::move(sampling)), communicator(communicator), excluded(std::move(excluded))
   {
   }
 
@@ -53,7 +54,7 @@ namespace tetradapt::estimate
             "A comparison with the exact solution is needed, but the scene gives none. Set Exact "
             "solution/Displacement, or choose another Adaptivity/Refinement indicator.");
         true_difference
-          = compare::difference_to_exact(*u_h, exact_solution, materials, communicator);
+          = compare::difference_to_exact(*u_h, exact_solution, materials, communicator, excluded);
       }
     return *true_difference;
   }
@@ -66,7 +67,7 @@ namespace tetradapt::estimate
     if (!has_exact_displacement())
       return ren_to_reference();
     if (!true_ren)
-      true_ren = compare::nodal_ren(*u_h, exact_solution, communicator);
+      true_ren = compare::nodal_ren(*u_h, exact_solution, communicator, excluded);
     return *true_ren;
   }
 

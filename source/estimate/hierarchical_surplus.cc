@@ -2,6 +2,7 @@
 #include "tetradapt/estimate/hierarchical_surplus.h"
 
 #include "tetradapt/core/expression.h"
+#include "tetradapt/mechanics/point_conditions.h"
 #include "tetradapt/mesh/face_table.h"
 
 #include <algorithm>
@@ -173,6 +174,14 @@ namespace tetradapt::estimate
             if (support.components[c])
               result.values[function][c] = value[c];
         };
+        // Vertices have no function; the edges of a line do.
+        if (support.place.line)
+          {
+            const auto nodes = mechanics::held_place_nodes(support, mesh, &surplus.edges());
+            for (const unsigned int node : nodes)
+              if (node >= mesh.n_points())
+                set(node - mesh.n_points(), coefficients.of_edge(node - mesh.n_points()));
+          }
         for (unsigned int f = 0; f < mesh.faces.size(); ++f)
           {
             const auto &selections = mesh.patches[mesh.faces[f].patch].selections;

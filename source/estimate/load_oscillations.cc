@@ -18,7 +18,7 @@ namespace tetradapt::estimate
     bool
     varies(const scene::LoadParameters &load)
     {
-      return load.type != scene::LoadType::nodal_force
+      return load.type != scene::LoadType::nodal_force && load.type != scene::LoadType::point_force
              && !core::SurfaceExpression(load.value, "Loads/" + load.name + "/Value").is_constant();
     }
   } // namespace

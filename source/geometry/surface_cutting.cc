@@ -3,8 +3,10 @@
 
 #include "border_search.h"
 #include "part_cutting.h"
+#include "place_search.h"
 
 #include <algorithm>
+#include <set>
 
 namespace tetradapt::geometry
 {
@@ -12,6 +14,9 @@ namespace tetradapt::geometry
   {
     /** By the local size: what a mesh should not have to resolve. */
     constexpr double short_edge = 1e-2;
+
+    /** Of a line that is cut into one flat part. */
+    constexpr std::size_t most_pieces = 10000;
 
     class Cutting
     {
@@ -41,6 +46,35 @@ namespace tetradapt::geometry
                   }
           }
         sort_cuts();
+        return any;
+      }
+
+      /** Whether any of them touches the surface where it has no point or edge. */
+      bool
+      find_places(const std::vector<SurfacePlace> &places)
+      {
+        bool any = false;
+        for (const SurfacePlace &place : places)
+          for (unsigned int part = 0; part < parts.triangles.size(); ++part)
+            {
+              const PartOfSurface view{surface, parts, part};
+              for (const auto &piece : place_in_part(view, place, scale.snap))
+                if (piece.size() > 1)
+                  {
+                    add_line(part, cuts.size(), piece);
+                    any = true;
+                  }
+                else if (const unsigned int p = number(view, cuts.size(), piece.front());
+                         p >= surface.points.size())
+                  {
+                    lines[part].push_back({p});
+                    any = true;
+                  }
+            }
+        sort_cuts();
+        if (any)
+          for (unsigned int part = 0; part < parts.triangles.size(); ++part)
+            shorten_lines(part);
         return any;
       }
 
@@ -139,6 +173,51 @@ namespace tetradapt::geometry
           lines[part].push_back(numbers);
       }
 
+      /** Divides the lines of a part until no other point of it lies in the sphere about any of
+       * their pieces. */
+      void
+      shorten_lines(const unsigned int part)
+      {
+        if (lines[part].empty())
+          return;
+        std::set<unsigned int> others;
+        for (const unsigned int t : parts.triangles[part])
+          others.insert(surface.triangles[t].begin(), surface.triangles[t].end());
+        for (const auto &line : lines[part])
+          others.insert(line.begin(), line.end());
+        for (const OutlineSide &side : parts.outlines[part])
+          if (const auto found = edge_cuts.find({side.first, side.second});
+              found != edge_cuts.end())
+            others.insert(found->second.begin(), found->second.end());
+        for (auto &line : lines[part])
+          for (std::size_t i = 1; i < line.size() && line.size() < most_pieces;)
+            {
+              const Point<3>     a = points.points()[line[i - 1]], b = points.points()[line[i]];
+              const Tensor<1, 3> edge = b - a;
+              double             at   = -1.;
+              for (const unsigned int p : others)
+                if (const Tensor<1, 3> from = points.points()[p] - a, to = points.points()[p] - b;
+                    p != line[i - 1] && p != line[i] && from * to < 0.)
+                  {
+                    at = from * edge / edge.norm_square();
+                    break;
+                  }
+              if (at < 0.)
+                {
+                  ++i;
+                  continue;
+                }
+              const unsigned int middle = points.number(a + (at > .2 && at < .8 ? at : .5) * edge);
+              if (middle == line[i - 1] || middle == line[i])
+                {
+                  ++i; // as short as points can be told apart
+                  continue;
+                }
+              line.insert(line.begin() + i, middle);
+              others.insert(middle);
+            }
+      }
+
       void
       sort_cuts()
       {
@@ -169,8 +248,12 @@ namespace tetradapt::geometry
               if (length >= short_edge * size)
                 continue;
               const std::size_t k = newer - surface.points.size();
-              result.short_edges.push_back(
-                {k < cut_of_point.size() ? cuts[cut_of_point[k]].name : "", length, size, middle});
+              result.short_edges.push_back({k < cut_of_point.size() && cut_of_point[k] < cuts.size()
+                                              ? cuts[cut_of_point[k]].name
+                                              : "",
+                                            length,
+                                            size,
+                                            middle});
             }
       }
 
@@ -189,10 +272,12 @@ namespace tetradapt::geometry
   CutSurface
   cut_surface(const SurfaceMesh                             &surface,
               const std::vector<SurfaceCut>                 &cuts,
-              const std::function<double(const Point<3> &)> &local_size)
+              const std::function<double(const Point<3> &)> &local_size,
+              const std::vector<SurfacePlace>               &places)
   {
-    Cutting cutting(surface, cuts, local_size);
-    if (cutting.find_borders())
+    Cutting    cutting(surface, cuts, local_size);
+    const bool has_borders = cutting.find_borders();
+    if (cutting.find_places(places) || has_borders)
       return cutting.triangulate();
     CutSurface whole;
     whole.mesh = surface;
@@ -200,5 +285,11 @@ namespace tetradapt::geometry
     for (unsigned int t = 0; t < whole.origin.size(); ++t)
       whole.origin[t] = t;
     return whole;
+  }
+
+  double
+  snap_distance(const SurfaceMesh &surface)
+  {
+    return CutScale(surface).snap;
   }
 } // namespace tetradapt::geometry

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/mechanics/loads.h"
 
+#include "tetradapt/mechanics/point_conditions.h"
 #include "tetradapt/mechanics/supports.h"
 #include "tetradapt/mechanics/surface_loads.h"
 #include "tetradapt/mechanics/volume_density.h"
@@ -96,6 +97,9 @@ namespace tetradapt::mechanics
             break;
           case scene::LoadType::nodal_force:
             add_node_load(scene.loads[number]);
+            break;
+          case scene::LoadType::point_force:
+            add_point_force(scene.loads[number], mesh, forces);
             break;
           case scene::LoadType::body_force:
           case scene::LoadType::gravity:

@@ -3,6 +3,7 @@
 
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/expression.h"
+#include "tetradapt/mechanics/point_conditions.h"
 #include "tetradapt/mechanics/rigid_motions.h"
 #include "tetradapt/mesh/mesh_checks.h"
 
@@ -130,6 +131,12 @@ namespace tetradapt::mechanics
       {
         const core::VectorExpression displacement(supports[s].displacement,
                                                   "Supports/" + supports[s].name + "/Displacement");
+        if (supports[s].place.is_set())
+          {
+            for (const unsigned int node : held_place_nodes(supports[s], mesh, edges))
+              prescriber.add_node(s, node, displacement);
+            continue;
+          }
         std::vector<unsigned int>    held(n_nodes, dealii::numbers::invalid_unsigned_int);
         for (unsigned int f = 0; f < mesh.faces.size(); ++f)
           {

@@ -3,6 +3,7 @@
 
 #include "tetradapt/geometry/flat_parts.h"
 #include "tetradapt/mesh/face_table.h"
+#include "tetradapt/mesh/kept_places.h"
 
 #include <algorithm>
 #include <limits>
@@ -176,6 +177,46 @@ namespace tetradapt::mesh
       return result;
     }
 
+    /** Keeps the ends of a kept place, and of the vertices in between as many as there is room for.
+     */
+    void
+    keep_vertices(const TetMesh     &mesh,
+                  const KeptPlace   &place,
+                  std::vector<bool> &keep,
+                  Thinning          &thinning)
+    {
+      const auto vertices = vertices_of(mesh, place);
+      const auto choose   = [&](const unsigned int v) {
+        if (!keep[v])
+          thinning.choose(v);
+        keep[v] = true;
+      };
+      choose(vertices.front());
+      choose(vertices.back());
+      for (const unsigned int v : vertices)
+        if (!thinning.is_blocked(v))
+          choose(v);
+    }
+
+    /** Points and lines are put in as into the first body; new points have the sizes of the old
+     * mesh there. */
+    void
+    add_kept_places(const TetMesh &mesh, const std::vector<double> &sizes, BodyComplex &body)
+    {
+      if (mesh.kept.empty())
+        return;
+      body.plc = with_kept_places(body.plc, mesh.kept);
+      for (std::size_t i = body.sizing.node_sizes.size(); i < body.plc.points.size(); ++i)
+        {
+          unsigned int nearest = 0;
+          for (unsigned int p = 1; p < mesh.n_points(); ++p)
+            if (mesh.points[p].distance_square(body.plc.points[i])
+                < mesh.points[nearest].distance_square(body.plc.points[i]))
+              nearest = p;
+          body.sizing.node_sizes.push_back(sizes[nearest]);
+        }
+    }
+
     /** Which points stay. */
     std::vector<bool>
     chosen_points(const TetMesh                          &mesh,
@@ -186,9 +227,11 @@ namespace tetradapt::mesh
       using Kind = geometry::PointKind;
       Thinning          thinning(mesh, sizes, edges);
       std::vector<bool> keep(mesh.n_points(), false);
+      for (const KeptPlace &place : mesh.kept)
+        keep_vertices(mesh, place, keep, thinning);
       for (const Kind kind : {Kind::corner, Kind::line, Kind::flat, Kind::unused})
         for (unsigned int p = 0; p < mesh.n_points(); ++p)
-          if (kinds[p] == kind && (kind == Kind::corner || !thinning.is_blocked(p)))
+          if (kinds[p] == kind && !keep[p] && (kind == Kind::corner || !thinning.is_blocked(p)))
             {
               keep[p] = true;
               thinning.choose(p);
@@ -234,6 +277,7 @@ namespace tetradapt::mesh
         plc.facets.push_back({{number[v[0]], number[v[1]], number[v[2]]},
                               patch < mesh.patches.size() ? patch : PiecewiseLinearComplex::inner});
       }
+    add_kept_places(mesh, sizes, body);
     return body;
   }
 } // namespace tetradapt::mesh

@@ -8,11 +8,13 @@
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/geometry/surface_checks.h"
 #include "tetradapt/geometry/surface_io.h"
+#include "tetradapt/mesh/kept_places.h"
 #include "tetradapt/mesh/mesh_factory.h"
 #include "tetradapt/mesh/selection_cuts.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace tetradapt::mesh
 {
@@ -179,14 +181,49 @@ namespace tetradapt::mesh
     mesh.patches = std::move(patches);
   }
 
+  bool
+  BoundaryProjection::is_projected(const Patch &patch) const
+  {
+    return surface_of(patch) != nullptr;
+  }
+
+  const CurvedSurface *
+  BoundaryProjection::surface_of(const Patch &patch) const
+  {
+    for (const auto &surface : surfaces)
+      if (const auto &names = patch.selections;
+          std::find(names.begin(), names.end(), surface->name()) != names.end())
+        return surface.get();
+    return nullptr;
+  }
+
+  std::optional<Point<3>>
+  BoundaryProjection::foot(const Patch &patch, const Point<3> &point, const double length) const
+  {
+    const CurvedSurface *surface = surface_of(patch);
+    if (surface == nullptr)
+      return std::nullopt;
+    const auto at = surface->foot(point, length);
+    return at ? std::optional<Point<3>>(at->point) : std::nullopt;
+  }
+
   MoveReport
   BoundaryProjection::project(TetMesh &mesh) const
   {
-    const auto                surface_of = surfaces_of_patches(mesh, surfaces);
+    std::vector<std::pair<unsigned int, KeptPlace *>> points_of_kept;
+    std::map<unsigned int, Point<3>>                  kept; // where these vertices go
+    for (KeptPlace &place : mesh.kept)
+      for (const unsigned int v : vertices_of(mesh, place))
+        {
+          kept[v] = place.is_line() ? mesh.points[v] : place.target;
+          if (!place.is_line())
+            points_of_kept.emplace_back(v, &place);
+        }
+    const auto                on_surface = surfaces_of_patches(mesh, surfaces);
     std::vector<unsigned int> place_of_point(mesh.n_points(), none), points;
     std::vector<Place>        places;
     for (const BoundaryFace &face : mesh.faces)
-      if (surface_of[face.patch] != none)
+      if (on_surface[face.patch] != none)
         for (const unsigned int v : face.vertices)
           if (place_of_point[v] == none)
             {
@@ -204,7 +241,7 @@ namespace tetradapt::mesh
             {
               Place &place = places[place_of_point[v]];
               place.length = std::max(place.length, length);
-              if (surface_of[face.patch] == none)
+              if (on_surface[face.patch] == none)
                 {
                   if (std::none_of(place.planes.begin(), place.planes.end(), [&](const auto &n) {
                         return n * normal > one_plane;
@@ -212,7 +249,7 @@ namespace tetradapt::mesh
                     place.planes.push_back(normal);
                   continue;
                 }
-              const CurvedSurface *surface = surfaces[surface_of[face.patch]].get();
+              const CurvedSurface *surface = surfaces[on_surface[face.patch]].get();
               if (std::find(place.surfaces.begin(), place.surfaces.end(), surface)
                   == place.surfaces.end())
                 place.surfaces.push_back(surface);
@@ -235,7 +272,9 @@ namespace tetradapt::mesh
         const Place            &place = places[i];
         const Point<3>         &here  = mesh.points[points[i]];
         std::optional<Point<3>> target;
-        if (with_creases && n_sharp[points[i]] > 0)
+        if (const auto found = kept.find(points[i]); found != kept.end())
+          target = found->second;
+        else if (with_creases && n_sharp[points[i]] > 0)
           {
             // Ends and branches of sharp edges are points of the first mesh, and so is where
             // they cross the border of a selection.
@@ -258,6 +297,8 @@ namespace tetradapt::mesh
       }
     MoveReport report = move_points(mesh, moves);
     report.n_held += n_lost;
+    for (auto &[vertex, place] : points_of_kept)
+      place->ends.front() = mesh.points[vertex];
     return report;
   }
 

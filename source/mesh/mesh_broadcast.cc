@@ -9,7 +9,8 @@ namespace tetradapt::mesh
 {
   namespace
   {
-    /** Names, ids and selections as text; each string on a line of its own. */
+    /** Names, ids, selections and how many ends kept places have as text; each string on a line of
+     * its own. */
     std::string
     names_to_text(const TetMesh &mesh)
     {
@@ -24,6 +25,9 @@ namespace tetradapt::mesh
       text << mesh.region_names.size() << '\n';
       for (const auto &region : mesh.region_names)
         text << region.first << '\n' << region.second << '\n';
+      text << mesh.kept.size() << '\n';
+      for (const KeptPlace &place : mesh.kept)
+        text << place.ends.size() << '\n' << place.name << '\n';
       return text.str();
     }
 
@@ -54,6 +58,12 @@ namespace tetradapt::mesh
           const int id          = std::stoi(next_line());
           mesh.region_names[id] = next_line();
         }
+      mesh.kept.resize(std::stoul(next_line()));
+      for (KeptPlace &place : mesh.kept)
+        {
+          place.ends.resize(std::stoul(next_line()));
+          place.name = next_line();
+        }
     }
   } // namespace
 
@@ -66,10 +76,24 @@ namespace tetradapt::mesh
     core::broadcast(mesh.cells, communicator);
     core::broadcast(mesh.regions, communicator);
     core::broadcast(mesh.faces, communicator);
+    std::vector<Point<3>> kept_points;
+    for (const KeptPlace &place : mesh.kept)
+      {
+        kept_points.insert(kept_points.end(), place.ends.begin(), place.ends.end());
+        kept_points.push_back(place.target);
+      }
+    core::broadcast(kept_points, communicator);
     const std::string names = names_to_text(mesh);
     std::vector<char> text(names.begin(), names.end());
     core::broadcast(text, communicator);
     names_from_text(std::string(text.begin(), text.end()), mesh);
+    auto next = kept_points.begin();
+    for (KeptPlace &place : mesh.kept)
+      {
+        for (Point<3> &end : place.ends)
+          end = *next++;
+        place.target = *next++;
+      }
   }
 
   std::shared_ptr<const TetMesh>

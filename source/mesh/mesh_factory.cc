@@ -7,6 +7,7 @@
 #include "tetradapt/mesh/blocks.h"
 #include "tetradapt/mesh/boundary_projection.h"
 #include "tetradapt/mesh/bricks.h"
+#include "tetradapt/mesh/kept_places.h"
 #include "tetradapt/mesh/plc.h"
 #include "tetradapt/mesh/selection.h"
 #include "tetradapt/mesh/selection_cuts.h"
@@ -119,19 +120,37 @@ namespace tetradapt::mesh
                          const core::Log              &log)
     {
       const auto selectors = face_selectors(scene);
+      const auto places    = kept_places(scene);
       const auto size      = wanted_size(scene.mesh, plc, sizing.max_volume);
       // Corners of the pieces of a facet do not lie on the surface that the facet's lie on.
       const bool assign_first
         = projection != nullptr
-          && with_selections(plc, selectors, size, core::Log()).points.size() != plc.points.size();
+          && (!places.empty()
+              || with_selections(plc, selectors, size, core::Log()).points.size()
+                   != plc.points.size());
       const auto whole
         = assign_first ? with_split_patches(plc, [&](TetMesh &faces) { projection->assign(faces); })
                        : plc;
-      const auto    cut = with_selections(whole, selectors, size, log);
+      const auto cut
+        = with_kept_places(with_selections(whole, selectors, size, log), places, projection, log);
       TetgenReport  report;
       const TetMesh mesh = Tetgen(scene.tetgen).mesh(cut, sizing, &report);
       warn_of_unmet_wishes(report, log);
       return mesh;
+    }
+
+    /** What TetGen is to mesh for a scene's box, blocks or surface. */
+    PiecewiseLinearComplex
+    body_to_mesh(const scene::MeshParameters &parameters,
+                 const unsigned int           number,
+                 const core::Log             &log)
+    {
+      if (parameters.source == scene::MeshSource::box)
+        return box_complex(parameters.lower_corner, parameters.upper_corner);
+      if (parameters.source == scene::MeshSource::blocks)
+        return blocks_complex(BlockGrid(parameters.blocks), parameters.block_regions);
+      const std::string &file = entry(parameters.files, number);
+      return surface_complex(load_surface(parameters, file, log), file);
     }
 
     TetMesh
@@ -147,35 +166,29 @@ namespace tetradapt::mesh
       switch (parameters.source)
         {
         case scene::MeshSource::bricks:
-          return bricks(parameters.lower_corner,
-                        parameters.upper_corner,
-                        entry(parameters.cells, number));
+          {
+            TetMesh mesh = bricks(parameters.lower_corner,
+                                  parameters.upper_corner,
+                                  entry(parameters.cells, number));
+            mesh.kept    = places_on_vertices(mesh, kept_places(scene));
+            return mesh;
+          }
         case scene::MeshSource::box:
-          return mesh_with_selections(scene,
-                                      box_complex(parameters.lower_corner, parameters.upper_corner),
-                                      sizing,
-                                      projection,
-                                      log);
         case scene::MeshSource::blocks:
-          return mesh_with_selections(scene,
-                                      blocks_complex(BlockGrid(parameters.blocks),
-                                                     parameters.block_regions),
-                                      sizing,
-                                      projection,
-                                      log);
+          return mesh_with_selections(
+            scene, body_to_mesh(parameters, number, log), sizing, projection, log);
         case scene::MeshSource::surface:
           {
-            const std::string &file    = entry(parameters.files, number);
-            const auto         surface = load_surface(parameters, file, log);
+            const auto body = body_to_mesh(parameters, number, log);
             log.progress("TetGen meshes the surface");
-            return mesh_with_selections(
-              scene, surface_complex(surface, file), sizing, projection, log);
+            return mesh_with_selections(scene, body, sizing, projection, log);
           }
         case scene::MeshSource::file:
           {
             const std::string &file = entry(parameters.files, number);
             log.progress("reading " + file);
             TetMesh mesh = read_volume_mesh(file, log);
+            mesh.kept    = places_on_vertices(mesh, kept_places(scene));
             // New points would lie on no curved surface.
             if (projection != nullptr)
               projection->assign(mesh);
@@ -207,7 +220,8 @@ namespace tetradapt::mesh
   {
     std::vector<std::pair<std::string, scene::Selector>> selectors;
     for (const auto &support : scene.supports)
-      selectors.emplace_back("Supports/" + support.name, support.selector);
+      if (!support.place.is_set())
+        selectors.emplace_back("Supports/" + support.name, support.selector);
     for (const auto &load : scene.loads)
       if (load.type == scene::LoadType::traction || load.type == scene::LoadType::pressure
           || load.type == scene::LoadType::nodal_force)
@@ -216,6 +230,24 @@ namespace tetradapt::mesh
       if (goal.uses_faces() && !goal.selector.empty())
         selectors.emplace_back("Goals/" + goal.name, goal.selector);
     return selectors;
+  }
+
+  void
+  check_kept_places(const scene::Scene &scene, const unsigned int number, scene::Mistakes &mistakes)
+  {
+    const auto places = kept_places(scene);
+    if (places.empty() || !borders_are_cut(scene.mesh))
+      return;
+    PiecewiseLinearComplex body;
+    const auto             projection = make_projection(scene);
+    if (!mistakes.attempt([&]() {
+          body = body_to_mesh(scene.mesh, number, core::Log());
+          if (projection != nullptr)
+            body = with_split_patches(body, [&](TetMesh &faces) { projection->assign(faces); });
+        }))
+      return;
+    for (const KeptPlace &place : places)
+      mistakes.attempt([&]() { with_kept_places(body, {place}, projection.get()); });
   }
 
   TetMesh

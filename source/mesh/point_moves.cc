@@ -5,6 +5,7 @@
 
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/geometry/surface_intersections.h"
+#include "tetradapt/mesh/kept_places.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,6 +42,9 @@ namespace tetradapt::mesh
               }
         for (const PointMove &move : moves)
           origins.push_back(mesh.points[move.point]);
+        for (const KeptPlace &place : mesh.kept)
+          for (const unsigned int v : vertices_of(mesh, place))
+            kept.push_back(v);
         for (unsigned int f = 0; f < mesh.faces.size(); ++f)
           for (const unsigned int v : mesh.faces[f].vertices)
             if (move_of_point[v] != none)
@@ -179,7 +183,9 @@ namespace tetradapt::mesh
         if (smoothing != nullptr)
           return;
         smoothing = std::make_unique<LocalSmoothing>(mesh);
-        inside    = mesh.points;
+        for (const unsigned int v : kept)
+          smoothing->fix(v);
+        inside = mesh.points;
         smoothed.assign(mesh.n_points(), 0);
         is_watched.assign(mesh.n_cells(), 0);
         for (const unsigned int c : watched)
@@ -314,6 +320,7 @@ namespace tetradapt::mesh
       std::vector<double>           way;              ///< part of the way to the target, per move
       std::vector<Point<3>>         origins;
       std::vector<unsigned int>     move_of_point;
+      std::vector<unsigned int>     kept;    ///< points that no smoothing moves
       std::vector<unsigned int>     faces;   ///< with points that move
       std::vector<Tensor<1, 3>>     normals; ///< of these faces, at the beginning
       std::vector<unsigned int>     watched; ///< cells

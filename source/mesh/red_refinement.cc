@@ -83,6 +83,7 @@ namespace tetradapt::mesh
     TetMesh fine;
     fine.patches      = mesh.patches;
     fine.region_names = mesh.region_names;
+    fine.kept         = mesh.kept;
     fine.points.reserve(mesh.points.size() + edges->edges.size());
     fine.points = mesh.points;
     for (const auto &[a, b] : edges->edges)

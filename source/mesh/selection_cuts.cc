@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/mesh/selection_cuts.h"
 
+#include "facet_triangles.h"
+
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/geometry/surface_cutting.h"
 #include "tetradapt/mesh/mesh_checks.h"
@@ -16,29 +18,6 @@ namespace tetradapt::mesh
   {
     using Selectors = std::vector<std::pair<std::string, scene::Selector>>;
     using Complex   = PiecewiseLinearComplex;
-
-    /** All facets as triangles, inner ones with the id one past the last patch's. */
-    struct FacetTriangles
-    {
-      geometry::SurfaceMesh     surface;
-      std::vector<unsigned int> facets; ///< of each triangle
-
-      explicit FacetTriangles(const Complex &plc)
-      {
-        surface.points = plc.points;
-        for (unsigned int f = 0; f < plc.facets.size(); ++f)
-          {
-            const auto &v = plc.facets[f].vertices;
-            for (std::size_t i = 2; i < v.size(); ++i)
-              {
-                surface.triangles.push_back({{v[0], v[i - 1], v[i]}});
-                surface.ids.push_back(plc.facets[f].patch == Complex::inner ? plc.patches.size()
-                                                                            : plc.facets[f].patch);
-                facets.push_back(f);
-              }
-          }
-      }
-    };
 
     std::vector<geometry::SurfaceCut>
     cuts_of(const Complex &plc, const Selectors &selectors)
@@ -90,34 +69,6 @@ namespace tetradapt::mesh
                   "an edge of the body or away from it.";
           log.warning(text.str());
         }
-    }
-
-    /** @p plc with the triangles of @p cut in place of the facets that were cut. */
-    Complex
-    with_cut_facets(const Complex              &plc,
-                    const FacetTriangles       &triangles,
-                    const geometry::CutSurface &cut)
-    {
-      Complex result = plc;
-      result.points  = cut.mesh.points;
-      result.facets.clear();
-      std::vector<bool> done(plc.facets.size(), false);
-      for (std::size_t t = 0; t < cut.origin.size(); ++t)
-        {
-          const auto &v = cut.mesh.triangles[t];
-          if (cut.origin[t] == geometry::CutSurface::nothing)
-            {
-              const unsigned int id = cut.mesh.ids[t];
-              result.facets.push_back(
-                {{v[0], v[1], v[2]}, id < plc.patches.size() ? id : Complex::inner});
-              continue;
-            }
-          const unsigned int facet = triangles.facets[cut.origin[t]];
-          if (!done[facet])
-            result.facets.push_back(plc.facets[facet]);
-          done[facet] = true;
-        }
-      return result;
     }
 
     /** The boundary's facets as faces of a mesh without cells, a polygon by its largest

@@ -4,6 +4,7 @@
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/geometry/surface_checks.h"
 #include "tetradapt/geometry/surface_intersections.h"
+#include "tetradapt/mesh/kept_places.h"
 #include "tetradapt/mesh/mesh_checks.h"
 #include "tetradapt/mesh/tetgen_demand.h"
 #include "tetradapt/mesh/tetgen_frame.h"
@@ -169,7 +170,9 @@ namespace tetradapt::mesh
       = run_tetgen(request, {parameters.time_limit, parameters.memory_limit}, plc.name);
     frame.leave(reply);
 
-    TetMesh          mesh   = mesh_from_reply(reply, plc.patches, plc.name);
+    TetMesh mesh = mesh_from_reply(reply, plc.patches, plc.name);
+    mesh.kept    = plc.kept;
+    check_kept_places(mesh);
     MeshTotals       before = expected_totals(surface, plc);
     const MeshTotals after  = mesh_totals(mesh);
     check_regions(after, plc);
@@ -224,6 +227,8 @@ namespace tetradapt::mesh
 
     TetMesh refined      = mesh_from_reply(reply, mesh.patches, what);
     refined.region_names = mesh.region_names;
+    refined.kept         = mesh.kept;
+    check_kept_places(refined);
     const double drift   = check_kept(mesh_totals(mesh), mesh_totals(refined), 1e-9, what);
     if (report != nullptr)
       {

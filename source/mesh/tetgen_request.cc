@@ -2,6 +2,7 @@
 #include "tetradapt/mesh/tetgen_request.h"
 
 #include "tetradapt/mesh/face_table.h"
+#include "tetradapt/mesh/kept_places.h"
 
 #include <deal.II/base/types.h>
 
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <set>
 
 namespace tetradapt::mesh
 {
@@ -165,6 +167,29 @@ namespace tetradapt::mesh
         }
     }
 
+    /** The edges of kept lines, each once: TetGen does not look for repetitions. */
+    void
+    add_kept_lines(TetgenRequest &request, const TetMesh &mesh)
+    {
+      if (std::none_of(mesh.kept.begin(), mesh.kept.end(), [](const KeptPlace &place) {
+            return place.is_line();
+          }))
+        return;
+      std::set<std::pair<std::int32_t, std::int32_t>> known;
+      for (std::size_t i = 0; i < request.edges.size(); i += 2)
+        known.insert(std::minmax(request.edges[i], request.edges[i + 1]));
+      for (const KeptPlace &place : mesh.kept)
+        {
+          const auto vertices = vertices_of(mesh, place);
+          for (std::size_t i = 1; i < vertices.size(); ++i)
+            {
+              const std::int32_t a = vertices[i - 1], b = vertices[i];
+              if (known.insert({std::min(a, b), std::max(a, b)}).second)
+                request.edges.insert(request.edges.end(), {a, b});
+            }
+        }
+    }
+
     /** As the end of TetGen's reconstructmesh(): points inside the volume, inside a
      * facet, or inside a straight line of two segments. */
     unsigned long
@@ -228,6 +253,8 @@ namespace tetradapt::mesh
           (facet.patch == plc.inner ? plc.patches.size() : facet.patch) + 1);
       }
     request.facet_offsets.push_back(request.facet_vertices.size());
+    for (const auto &segment : plc.segments)
+      request.edges.insert(request.edges.end(), segment.begin(), segment.end());
     for (const auto &region : plc.regions)
       request.regions.insert(request.regions.end(),
                              {region.seed[0],
@@ -251,6 +278,7 @@ namespace tetradapt::mesh
     request.tet_attributes.assign(mesh.regions.begin(), mesh.regions.end());
     add_faces(request, mesh);
     add_segments(request, mesh);
+    add_kept_lines(request, mesh);
     n_inserted = count_inserted(request, mesh);
     return request;
   }

@@ -221,6 +221,42 @@ namespace tetradapt::report
       return text.empty() ? entry("error", "not known: nothing measures or estimates it") : text;
     }
 
+    /** Where the energy does not converge, and what errors leave out for that. Supports that carry
+     * nothing are no such places. */
+    std::string
+    singular_places(const adapt::CycleRecord &record)
+    {
+      std::string text;
+      for (const adapt::LeftOutRecord &part : record.left_out)
+        {
+          bool acts = part.is_force;
+          if (record.equilibrium && !part.is_force)
+            for (const solve::ActingForce &support : record.equilibrium->supports)
+              acts
+                = acts
+                  || ("Supports/" + support.name == part.name
+                      && support.resultant.force.norm() > force_noise(*record.equilibrium).force);
+          if (acts)
+            text += entry(text.empty() ? "energy" : "",
+                          "does not converge at " + part.name
+                            + ": it grows without limit as the mesh is refined, and so do the "
+                              "largest displacement and stress there");
+        }
+      bool first = true;
+      for (const adapt::LeftOutRecord &part : record.left_out)
+        if (part.radius > 0.)
+          {
+            text += entry(first ? "errors leave out" : "",
+                          "what is " + part.place + " (" + part.name + "), "
+                            + (part.n_cells == 0
+                                 ? "where tetrahedra are larger: none yet"
+                                 : std::to_string(part.n_cells)
+                                     + (part.n_cells == 1 ? " tetrahedron" : " tetrahedra")));
+            first = false;
+          }
+      return text;
+    }
+
     std::string
     tolerances(const scene::Scene &scene, const adapt::StopDecision &decision)
     {
@@ -244,6 +280,9 @@ namespace tetradapt::report
     error_advice(const scene::Scene &scene, const adapt::CycleRecord &record)
     {
       const bool is_known = record.relative_energy_error || record.relative_estimate;
+      if (!is_known && !record.left_out.empty())
+        return "learn how wrong this is away from points and lines: add Estimation/Estimators = "
+               "residual (cheap) or spr, or set Adaptivity/Strategy = adaptive.";
       if (!is_known)
         return "learn how wrong this is: add Estimation/Estimators = residual (cheap), spr, or "
                "equilibrated (a bound), or set Adaptivity/Strategy = adaptive.";
@@ -306,7 +345,7 @@ namespace tetradapt::report
                 width,
                 2);
     text += extremes(record) + balance(record) + body(record) + goals(record)
-            + errors(scene, record) + tolerances(scene, decision);
+            + errors(scene, record) + singular_places(record) + tolerances(scene, decision);
     if (!decision.success)
       text += entry("end", decision.text);
     return text + entry("next", advice(scene, record, decision));

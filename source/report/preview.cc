@@ -3,6 +3,7 @@
 
 #include "tetradapt/mechanics/material_map.h"
 #include "tetradapt/mesh/face_table.h"
+#include "tetradapt/mesh/kept_places.h"
 #include "tetradapt/mesh/vtu_writer.h"
 #include "tetradapt/report/record_columns.h"
 #include "tetradapt/scene/words.h"
@@ -60,10 +61,12 @@ namespace tetradapt::report
       return selected;
     }
 
-    /** Whether @p load acts on the body: no patch is named after it. */
+    /** Whether @p load acts on the body: no patch is named after it, and no vertex. */
     bool
     acts_on_body(const scene::LoadParameters &load, const mesh::TetMesh &mesh)
     {
+      if (load.place.is_set())
+        return false;
       const auto selected = selected_patches(mesh, "Loads/" + load.name);
       return std::count(selected.begin(), selected.end(), true) == 0;
     }
@@ -133,6 +136,25 @@ namespace tetradapt::report
           append(rows.back(), Extent(mesh, selected).cells());
         }
       return aligned_table(rows, 2);
+    }
+
+    /** Points and lines with the places of their ends; empty if there is none. */
+    std::string
+    place_table(const scene::Scene &scene, const mesh::TetMesh &mesh)
+    {
+      Rows rows{{"at points", "what", "vertices", "x", "y", "z"}};
+      for (const Item &item : items_of(scene))
+        if (const mesh::KeptPlace *place = mesh::find_place(mesh, item.name))
+          for (const dealii::Point<3> &end : place->ends)
+            {
+              const bool first = &end == &place->ends.front();
+              rows.push_back({first ? item.name : "  to",
+                              first ? item.kind : "",
+                              first ? std::to_string(mesh::vertices_of(mesh, *place).size()) : ""});
+              for (unsigned int d = 0; d < 3; ++d)
+                rows.back().push_back(format_number(end[d], 4));
+            }
+      return rows.size() > 1 ? aligned_table(rows, 2) + "\n" : "";
     }
 
     /** Number and volume of the tetrahedra of some regions. */
@@ -260,8 +282,8 @@ namespace tetradapt::report
   preview_tables(const scene::Scene &scene, const mesh::TetMesh &mesh)
   {
     const mechanics::MaterialMap materials(scene, mesh);
-    return face_table(scene, mesh) + "\n" + body_table(scene, mesh, materials) + "\n"
-           + boundary_table(mesh);
+    return face_table(scene, mesh) + "\n" + place_table(scene, mesh)
+           + body_table(scene, mesh, materials) + "\n" + boundary_table(mesh);
   }
 
   void

@@ -4,6 +4,7 @@
 #include "binder.h"
 #include "checks.h"
 #include "face_choice.h"
+#include "place_choice.h"
 
 #include "tetradapt/core/surface_expression.h"
 
@@ -62,6 +63,7 @@ namespace tetradapt::scene
     bind(SupportParameters &p, Binder &binder)
     {
       bind_faces(p.selector, binder);
+      bind_place(p.place, true, binder);
       binder("Components",
              p.components,
              components_codec(),
@@ -95,7 +97,8 @@ namespace tetradapt::scene
              "force: a force at every mesh point of the faces, so that the whole load grows with "
              "the mesh (for comparison with programs that do this); body force: force per volume; "
              "gravity: an acceleration, times the density; "
-             "temperature: its change, which causes thermal strain.");
+             "temperature: its change, which causes thermal strain; point force: a force at one "
+             "Point, where the energy does not converge.");
       const bool on_faces = acts_on_faces(p.type);
       Selector   faces    = on_faces ? p.selector : Selector();
       Selector   regions  = on_faces ? Selector() : p.selector;
@@ -109,6 +112,8 @@ namespace tetradapt::scene
              regions.groups,
              names_codec(),
              "body force, gravity, temperature: names of regions.");
+
+      bind_place(p.place, false, binder);
 
       std::vector<std::string> values(p.value.begin(), p.value.end());
       if (is_scalar(p.type))
@@ -131,7 +136,19 @@ namespace tetradapt::scene
 
       // The type was read above, so that only now its lists are known.
       const std::string path = "Loads/" + p.name + "/";
-      if (acts_on_faces(p.type))
+      if (p.type == LoadType::point_force)
+        {
+          require(faces.empty() && regions.empty(),
+                  path
+                    + (!faces.ids.empty()      ? "Boundary ids"
+                       : !faces.groups.empty() ? "Groups"
+                       : !faces.where.empty()  ? "Where"
+                       : !regions.ids.empty()  ? "Regions"
+                                               : "Region groups"),
+                  "a point force acts at its Point only. Remove this.");
+          p.selector = faces;
+        }
+      else if (acts_on_faces(p.type))
         {
           require(regions.empty(),
                   path + (regions.ids.empty() ? "Region groups" : "Regions"),
@@ -230,7 +247,10 @@ namespace tetradapt::scene
   {
     Mistakes          mistakes;
     const std::string path = "Supports/" + name;
-    mistakes.attempt([&]() { check_faces(selector, path); });
+    if (place.is_set() || place.excluded_radius)
+      mistakes.attempt([&]() { check_place(place, selector, path); });
+    if (!place.is_set())
+      mistakes.attempt([&]() { check_faces(selector, path); });
     mistakes.require(components[0] || components[1] || components[2],
                      path + "/Components",
                      "name at least one of x, y, z, or all.");
@@ -273,6 +293,24 @@ namespace tetradapt::scene
                      path + "/Smallest feature",
                      "must be positive, or 0 for a hundredth of the body's size; it is "
                        + text_of(smallest_feature) + ".");
+    if (type == LoadType::point_force)
+      {
+        mistakes.require(place.is_set(),
+                         path + "/Point",
+                         "a point force needs the point that it acts at, such as 0, 0, 1.5.");
+        if (place.is_set())
+          mistakes.attempt([&]() { check_place(place, selector, path); });
+      }
+    else
+      {
+        mistakes.require(!place.is_set(),
+                         path + "/Point",
+                         "only a point force acts at a point. Set Type = point force, or remove "
+                         "this.");
+        mistakes.require(!place.excluded_radius,
+                         path + "/Excluded radius",
+                         "only a point force has one. Remove this.");
+      }
     const bool has_normal = type == LoadType::traction || type == LoadType::pressure;
     for (unsigned int c = 0; c < (is_scalar(type) ? 1u : 3u); ++c)
       mistakes.attempt([&]() {

@@ -5,6 +5,7 @@
 #include "tetradapt/scene/words.h"
 
 #include "checks.h"
+#include "place_choice.h"
 #include "scene_checks.h"
 #include "values.h"
 
@@ -328,6 +329,8 @@ namespace tetradapt::scene
         check_formulation);
     fit({"Loads", "Supports", "Materials"}, check_loads);
     fit({"Reference", "Mesh"}, check_reference);
+    fit({"Supports", "Loads", "Reference", "Exact solution", "Estimation", "Adaptivity"},
+        check_point_conditions);
     fit({"Estimation", "Goals", "Reference", "Exact solution", "Supports", "Loads"},
         check_estimation);
     fit({"Adaptivity",

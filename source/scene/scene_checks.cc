@@ -74,6 +74,9 @@ namespace tetradapt::scene
   void
   check_compatible(const SupportParameters &first, const SupportParameters &second)
   {
+    // What meets at a vertex is compared where it is known.
+    if (first.place.is_set() || second.place.is_set())
+      return;
     if (first.selector.ids != second.selector.ids || first.selector.groups != second.selector.groups
         || first.selector.where != second.selector.where)
       return;

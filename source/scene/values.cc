@@ -314,6 +314,40 @@ namespace tetradapt::scene
             [](const std::optional<double> &value) { return value ? text_of(*value) : ""; }};
   }
 
+  Codec<std::optional<dealii::Point<3>>>
+  optional_point_codec()
+  {
+    return {"three numbers separated by commas, such as 0, 0, 1.5, or nothing",
+            [](const std::string &text, std::optional<dealii::Point<3>> &value) {
+              value.reset();
+              return trim(text).empty() || point_codec().read(text, value.emplace());
+            },
+            [](const std::optional<dealii::Point<3>> &value) {
+              return value ? point_codec().write(*value) : "";
+            }};
+  }
+
+  Codec<std::optional<std::pair<dealii::Point<3>, dealii::Point<3>>>>
+  optional_line_codec()
+  {
+    using Line = std::optional<std::pair<dealii::Point<3>, dealii::Point<3>>>;
+    return {"two points such as 0, 0, 0 : 1, 0, 0, or nothing",
+            [](const std::string &text, Line &value) {
+              value.reset();
+              if (trim(text).empty())
+                return true;
+              const auto ends = split(text, ':');
+              value.emplace();
+              return ends.size() == 2 && point_codec().read(ends[0], value->first)
+                     && point_codec().read(ends[1], value->second);
+            },
+            [](const Line &value) {
+              return value ? point_codec().write(value->first) + " : "
+                               + point_codec().write(value->second)
+                           : "";
+            }};
+  }
+
   Codec<std::vector<std::string>>
   parameter_names_codec()
   {

@@ -117,6 +117,12 @@ namespace tetradapt::scene
   /** A number, or nothing. */
   Codec<std::optional<double>>
   optional_number_codec();
+  /** A point, or nothing. */
+  Codec<std::optional<dealii::Point<3>>>
+  optional_point_codec();
+  /** The two ends of a line, or nothing. */
+  Codec<std::optional<std::pair<dealii::Point<3>, dealii::Point<3>>>>
+  optional_line_codec();
   /** Full names of parameters, separated by "&". */
   Codec<std::vector<std::string>>
   parameter_names_codec();

@@ -30,7 +30,8 @@ namespace tetradapt::scene
                                        {LoadType::nodal_force, "nodal force"},
                                        {LoadType::body_force, "body force"},
                                        {LoadType::gravity, "gravity"},
-                                       {LoadType::temperature, "temperature"}};
+                                       {LoadType::temperature, "temperature"},
+                                       {LoadType::point_force, "point force"}};
     return table;
   }
 

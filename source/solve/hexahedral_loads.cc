@@ -374,6 +374,7 @@ namespace tetradapt::solve
             forces);
           break;
         case scene::LoadType::nodal_force: // refused with the grid
+        case scene::LoadType::point_force: // refused with the scene
         case scene::LoadType::temperature: // all of them together below
           break;
         }

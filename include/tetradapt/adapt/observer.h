@@ -65,6 +65,16 @@ namespace tetradapt::adapt
     std::string counts_by_id;
   };
 
+  /** A point or a line where a support or a load acts: what errors leave out around it. */
+  struct LeftOutRecord
+  {
+    std::string   name;           ///< "Loads/tip"
+    std::string   place;          ///< "within 0.2 of (4, 0, 0)"; empty: nothing is left out
+    double        radius   = 0.;  ///< 0: nothing is left out
+    bool          is_force = false;
+    unsigned long n_cells  = 0; ///< of this cycle's mesh that are left out
+  };
+
   /** What an error is measured against. */
   enum class ErrorSource
   {
@@ -122,6 +132,7 @@ namespace tetradapt::adapt
     Acceptance                  acceptance = Acceptance::accepted;
     std::vector<EstimateRecord> estimates; ///< the refinement indicator first
     std::vector<GoalRecord>     goals;
+    std::vector<LeftOutRecord>  left_out; ///< a point force or a support at a point or line each
     MeshRecord                  mesh;
     /** Reactions and loads, and how they balance. */
     std::optional<solve::Equilibrium> equilibrium;

@@ -51,6 +51,8 @@ namespace tetradapt::adapt
     unsigned long reference_tets         = 0;
     unsigned int  reference_degree       = 0;
     bool          reference_is_hexahedra = false;
+    /** Whether errors leave out a part of the body. */
+    bool leaves_out = false;
     /** The goal that Goal tolerance is about: Estimation/Goal; empty: the first. */
     std::string goal;
     /** Strategy::mesh_list: the number of meshes. */

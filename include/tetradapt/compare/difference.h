@@ -33,6 +33,8 @@ namespace tetradapt::compare
    * rule and with the reference found by its locator; this part does not enter
    * the global norms. Collective.
    *
+   * Cells of u_h and of the reference in the sampling's ExcludedRegion count nowhere.
+   *
    * @p sampling is of a reference on tetrahedra; see difference_to_hexahedra().
    */
   Difference
@@ -65,13 +67,15 @@ namespace tetradapt::compare
    * outside the body. Give it where you can: it saves 45 of 57 evaluations a
    * point. Collective.
    *
+   * @param excluded cells of it count nowhere, and nothing is evaluated there.
    * @throws InputError if an expression does not parse or is not finite in a cell.
    */
   Difference
   difference_to_exact(const mesh::NodalField               &u_h,
                       const scene::ExactSolutionParameters &exact_solution,
                       const mechanics::MaterialMap         &materials,
-                      MPI_Comm                              communicator);
+                      MPI_Comm                              communicator,
+                      const ExcludedRegion                 &excluded = {});
 
   /**
    * The 2015 report's relative error norm of a node, REN = |P-Q'| / |P0-Q'|: P0
@@ -81,7 +85,8 @@ namespace tetradapt::compare
    * |P-Q'| = |u_h-u| and |P0-Q'| = |u| are formed from the displacements, which
    * loses no digits when these are small against the model. A distance is zero
    * if it does not exceed zero_distance times the largest |u| at the nodes: what
-   * is left by rounding, for example at a support, is no displacement.
+   * is left by rounding, for example at a support, is no displacement. Nodes in an
+   * ExcludedRegion have zero and count in no mean.
    */
   struct NodalRen
   {
@@ -110,7 +115,8 @@ namespace tetradapt::compare
   NodalRen
   nodal_ren(const mesh::NodalField               &u_h,
             const scene::ExactSolutionParameters &exact_solution,
-            MPI_Comm                              communicator);
+            MPI_Comm                              communicator,
+            const ExcludedRegion                 &excluded = {});
 } // namespace tetradapt::compare
 
 #endif

@@ -35,13 +35,15 @@ namespace tetradapt::compare
    *
    * @param initial_mesh the scene's initial mesh with selections made; the route
    *        "refine" refines it; on hexahedra supports and loads act where they act on it.
+   * @param excluded what its own error leaves out.
    */
   Reference
   make_reference(const scene::Scene                  &scene,
                  const mechanics::MaterialMap        &materials,
                  std::shared_ptr<const mesh::TetMesh> initial_mesh,
                  MPI_Comm                             communicator,
-                 const core::Log                     &log);
+                 const core::Log                     &log,
+                 const ExcludedRegion                &excluded = {});
 } // namespace tetradapt::compare
 
 #endif

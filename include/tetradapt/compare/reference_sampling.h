@@ -2,6 +2,7 @@
 #ifndef tetradapt_compare_reference_sampling_h
 #define tetradapt_compare_reference_sampling_h
 
+#include "tetradapt/compare/excluded_region.h"
 #include "tetradapt/compare/point_locator.h"
 #include "tetradapt/mechanics/energy_norm.h"
 #include "tetradapt/mechanics/material_map.h"
@@ -40,14 +41,27 @@ namespace tetradapt::compare
   class ReferenceSampling
   {
   public:
-    /** Collective. @p materials must outlive this object. */
+    /**
+     * @param materials must outlive this object.
+     * @param excluded cells of it are neither visited nor do they count in the norms; empty for
+     *        a reference on hexahedra.
+     * Collective.
+     */
     ReferenceSampling(const ReferenceField         &reference,
                       const mechanics::MaterialMap &materials,
-                      MPI_Comm                      communicator);
+                      MPI_Comm                      communicator,
+                      ExcludedRegion                excluded = {});
     /** For one on tetrahedra. */
     ReferenceSampling(std::shared_ptr<const mesh::NodalField> reference,
                       const mechanics::MaterialMap           &materials,
-                      MPI_Comm                                communicator);
+                      MPI_Comm                                communicator,
+                      ExcludedRegion                          excluded = {});
+
+    const ExcludedRegion &
+    excluded() const
+    {
+      return region;
+    }
 
     /** The reference on hexahedra; null for one on tetrahedra. */
     const mesh::HexahedralField *
@@ -116,6 +130,7 @@ namespace tetradapt::compare
     ReferenceField                field;
     const mechanics::MaterialMap &material_map;
     MPI_Comm                      mpi_communicator;
+    ExcludedRegion                region;
     std::vector<unsigned int>     cells;
     double                        norms[4] = {0., 0., 0., 0.}; ///< the last: int 2 mu |grad u|^2
     mutable std::unique_ptr<PointLocator> point_locator;

@@ -3,6 +3,7 @@
 #define tetradapt_estimate_comparison_h
 
 #include "tetradapt/compare/difference.h"
+#include "tetradapt/compare/excluded_region.h"
 #include "tetradapt/compare/reference_sampling.h"
 
 #include <memory>
@@ -25,12 +26,14 @@ namespace tetradapt::estimate
      * Keeps references to @p materials and @p exact_solution.
      *
      * @param sampling of the reference, made once a run; null if there is none.
+     * @param excluded what every comparison leaves out, the same as in @p sampling.
      */
     Comparison(std::shared_ptr<const mesh::NodalField>           displacement,
                const mechanics::MaterialMap                     &materials,
                const scene::ExactSolutionParameters             &exact_solution,
                std::shared_ptr<const compare::ReferenceSampling> sampling,
-               MPI_Comm                                          communicator);
+               MPI_Comm                                          communicator,
+               compare::ExcludedRegion                           excluded = {});
 
     bool
     has_reference() const
@@ -56,6 +59,12 @@ namespace tetradapt::estimate
     mpi_communicator() const
     {
       return communicator;
+    }
+    /** What errors and estimates leave out. */
+    const compare::ExcludedRegion &
+    excluded_region() const
+    {
+      return excluded;
     }
 
     /** Difference to the reference. @throws core::InputError if there is none. */
@@ -90,6 +99,7 @@ namespace tetradapt::estimate
     const scene::ExactSolutionParameters             &exact_solution;
     std::shared_ptr<const compare::ReferenceSampling> sampling;
     MPI_Comm                                          communicator;
+    compare::ExcludedRegion                           excluded;
 
     std::unique_ptr<compare::PointLocator> own_locator;
     std::optional<compare::Difference>     reference_difference, true_difference;

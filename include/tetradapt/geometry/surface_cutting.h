@@ -39,6 +39,10 @@ namespace tetradapt::geometry
     std::vector<ShortEdge>    short_edges;
   };
 
+  /** A point, or a straight line between two points, that is to be part of a surface where it
+   * touches it. */
+  using SurfacePlace = std::vector<Point<3>>;
+
   /**
    * Triangulates a surface again where the borders of conditions run, so that each
    * triangle lies wholly where a condition holds or does not.
@@ -57,6 +61,12 @@ namespace tetradapt::geometry
    * passes a point or an edge as near as that runs through it. The surface need not be
    * manifold. An edge is cut alike in all triangles that share it.
    *
+   * A point of @p places on the surface becomes one of its points; a line becomes edges where
+   * it lies in the surface, and points where it ends on it or goes through it. Such edges
+   * are so short that no other point of their flat part lies in the sphere that has one of them as
+   * its diameter: they are edges of the part's Delaunay triangulation, which TetGen
+   * makes of facets in one plane.
+   *
    * @param local_size wanted edge length at a point; the flat part's own longest edge counts,
    *        too.
    * @return the surface itself, where nothing is to be cut, else one with the same ids; flat
@@ -67,7 +77,12 @@ namespace tetradapt::geometry
   CutSurface
   cut_surface(const SurfaceMesh                             &surface,
               const std::vector<SurfaceCut>                 &cuts,
-              const std::function<double(const Point<3> &)> &local_size);
+              const std::function<double(const Point<3> &)> &local_size,
+              const std::vector<SurfacePlace>               &places = {});
+
+  /** Points of a body as near as this to each other are one when it is cut. */
+  double
+  snap_distance(const SurfaceMesh &surface);
 } // namespace tetradapt::geometry
 
 #endif

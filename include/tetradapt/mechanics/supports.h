@@ -13,7 +13,7 @@ namespace tetradapt::mechanics
     unsigned int        node;       ///< of the field
     unsigned int        support;    ///< index into the scene's supports
     std::array<bool, 3> components; ///< those that this support prescribes
-    double              area;       ///< of the support's faces that have the node
+    double              area; ///< of the support's faces that have the node; 0 at points and lines
   };
 
   /** The displacement components that the supports prescribe, a node each. */
@@ -40,7 +40,8 @@ namespace tetradapt::mechanics
   boundary_face_nodes(const mesh::TetMesh &mesh, const mesh::EdgeTable *edges);
 
   /**
-   * Evaluates the supports on the nodes of the patches that carry their names.
+   * Evaluates the supports on the nodes of the patches that carry their names, or at the points
+   * and on the lines that TetMesh::kept has for them.
    * @param edges is null for degree 1.
    * @throws core::InputError if two supports prescribe different values for one
    *         component of one node, naming both and the place, or if a connected

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace tetradapt::mesh
 {
@@ -50,7 +51,17 @@ namespace tetradapt::mesh
     void
     assign(TetMesh &mesh) const;
 
-    /** Moves the boundary's points to where they belong. */
+    /** Whether faces of @p patch, which assign() has seen, are projected. */
+    bool
+    is_projected(const Patch &patch) const;
+
+    /** The point of the surface of @p patch, a projected one, that is nearest to @p point; none
+     * if it is not found within @p length. */
+    std::optional<Point<3>>
+    foot(const Patch &patch, const Point<3> &point, double length) const;
+
+    /** Moves the boundary's points to where they belong: points of TetMesh::kept to their targets,
+     * those on kept lines nowhere. */
     MoveReport
     project(TetMesh &mesh) const;
 
@@ -65,6 +76,10 @@ namespace tetradapt::mesh
     body_volume(const TetMesh &mesh) const;
 
   private:
+    /** The surface that a patch lies on; null for none. */
+    const CurvedSurface *
+    surface_of(const Patch &patch) const;
+
     bool                                        every_face = false;
     double                                      feature_angle;
     double                                      volume = 0.;

@@ -4,6 +4,7 @@
 
 #include "tetradapt/core/log.h"
 #include "tetradapt/mesh/tetgen.h"
+#include "tetradapt/scene/mistakes.h"
 #include "tetradapt/scene/scene.h"
 
 namespace tetradapt::mesh
@@ -12,6 +13,11 @@ namespace tetradapt::mesh
   std::vector<std::pair<std::string, scene::Selector>>
   face_selectors(const scene::Scene &scene);
 
+  /** Checks without meshing whether the points and lines of supports and loads lie in the body that
+   * TetGen is to mesh, a box, blocks or a surface: mesh @p number of the scene's list. */
+  void
+  check_kept_places(const scene::Scene &scene, unsigned int number, scene::Mistakes &mistakes);
+
   /** Warns of what TetGen could not do. */
   void
   warn_of_unmet_wishes(const TetgenReport &report, const core::Log &log);
@@ -19,8 +25,8 @@ namespace tetradapt::mesh
   /**
    * Makes mesh @p number of those that the scene lists (0 where it lists one): reads
    * or generates it, meshes surfaces and boxes by TetGen, refines it to the wanted
-   * volume or size, and marks on its boundary where supports and loads act. Not
-   * collective.
+   * volume or size, and marks on its boundary where supports and loads act; vertices and edges
+   * where they act at points and on lines are its TetMesh::kept. Not collective.
    *
    * @throws core::InputError, core::NumericalError as the readers, the surface
    *         checks, TetGen and select_faces() do.

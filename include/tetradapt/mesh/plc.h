@@ -37,6 +37,9 @@ namespace tetradapt::mesh
     std::vector<Facet>    facets;
     std::vector<Patch>    patches;
     std::vector<Region>   regions; ///< empty: everything is region 0
+    /** Edges that a mesh must have, or more of them along these: point numbers. */
+    std::vector<std::array<unsigned int, 2>> segments;
+    std::vector<KeptPlace>                   kept; ///< what points and segments are for
     /** Relative change of the volume that is taken for rounding: facets within 0.01
      * degree of one plane are meshed as one. */
     double volume_tolerance = 1e-6;

@@ -27,6 +27,25 @@ namespace tetradapt::mesh
     std::vector<std::string> selections;      ///< names of supports and loads that hold here
   };
 
+  /**
+   * A point or a straight line of the scene where a support or a load acts: the mesh has a
+   * vertex there, or edges along the whole line. Meshes that are made from a mesh keep its places.
+   */
+  struct KeptPlace
+  {
+    std::string           name; ///< of the support or load: "Supports/hinge"
+    std::vector<Point<3>> ends; ///< one: a vertex; two: the vertices at the ends of a line
+    /** Where a point is to be, on the curved surface that the boundary is projected onto:
+     * its vertex is moved there. That of ends otherwise. */
+    Point<3> target;
+
+    bool
+    is_line() const
+    {
+      return ends.size() == 2;
+    }
+  };
+
   /** A triangle of the boundary. */
   struct BoundaryFace
   {
@@ -51,6 +70,7 @@ namespace tetradapt::mesh
     std::vector<BoundaryFace>                faces;
     std::vector<Patch>                       patches;
     std::map<int, std::string>               region_names;
+    std::vector<KeptPlace>                   kept; ///< points and lines that have vertices
 
     unsigned int
     n_points() const

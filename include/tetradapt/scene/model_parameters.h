@@ -2,8 +2,11 @@
 #ifndef tetradapt_scene_model_parameters_h
 #define tetradapt_scene_model_parameters_h
 
+#include <deal.II/base/point.h>
+
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +45,34 @@ namespace tetradapt::scene
     }
   };
 
+  /**
+   * A point, or a straight line, where something acts on vertices or edges that every mesh of
+   * a run has. The energy of a solution that is held or loaded there does not converge:
+   * errors leave out what is within a radius of it.
+   */
+  struct PlaceParameters
+  {
+    std::optional<dealii::Point<3>>                              point;
+    std::optional<std::pair<dealii::Point<3>, dealii::Point<3>>> line; ///< its ends
+    /** What errors leave out; empty: default_radius times the body's largest extent, 0:
+     * nothing. */
+    std::optional<double> excluded_radius;
+
+    static constexpr double default_radius = 0.05;
+
+    bool
+    is_set() const
+    {
+      return point || line;
+    }
+    /** Whether errors leave anything out. */
+    bool
+    excludes() const
+    {
+      return is_set() && excluded_radius.value_or(default_radius) > 0.;
+    }
+  };
+
   /** The unknowns of a linear system. */
   enum class Formulation
   {
@@ -69,13 +100,14 @@ namespace tetradapt::scene
     check() const;
   };
 
-  /** Prescribed displacement components on a part of the boundary. */
+  /** Prescribed displacement components on a part of the boundary, at a point or on a line. */
   struct SupportParameters
   {
     std::string                name;
     Selector                   selector;
     std::array<bool, 3>        components{{true, true, true}};
     std::array<std::string, 3> displacement{{"0", "0", "0"}}; ///< in x, y, z, t
+    PlaceParameters            place; ///< if it is set, no faces are selected
 
     void
     declare(dealii::ParameterHandler &prm) const;
@@ -92,7 +124,8 @@ namespace tetradapt::scene
     body_force,  ///< force per volume, on regions
     gravity,     ///< acceleration times the material's density, on regions
     nodal_force, ///< a force at every node (point of the mesh) of the faces, as LML has it
-    temperature  ///< temperature change: thermal strain alpha T I, on regions
+    temperature, ///< temperature change: thermal strain alpha T I, on regions
+    point_force  ///< a force at one point
   };
 
   /** A load. */
@@ -108,6 +141,8 @@ namespace tetradapt::scene
     /** Size of the smallest thing that the value may show: a peak, a patch, half a wave. The
      * value is looked at with this spacing; 0: a hundredth of the body's size. */
     double smallest_feature = 0.;
+    /** Point forces only: the point. */
+    PlaceParameters place;
 
     void
     declare(dealii::ParameterHandler &prm) const;
