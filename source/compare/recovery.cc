@@ -22,7 +22,10 @@ namespace tetradapt::compare
                 const StressSamples    &samples,
                 const CellMaterials    &materials,
                 const StressConditions *conditions)
-        : patches(patches), solver(mesh, samples, materials, conditions),
+        : mesh(mesh), patches(patches), conditions(conditions),
+          cells_at_curved_walls(
+            (samples_at_curved_walls * n_monomials[degree] - 1) / samples.n_a_cell() + 1),
+          solver(mesh, samples, materials, conditions),
           lower(mesh, patches, samples, materials, conditions)
       {
       }
@@ -32,6 +35,12 @@ namespace tetradapt::compare
       void
       fit(const unsigned int patch, std::vector<unsigned int> &cells, double *result)
       {
+        if (is_on_curved_wall(patch))
+          {
+            patches.nearest_cells(mesh, patch, cells_at_curved_walls, cells);
+            if (solver.solve(patches.vertex[patch], cells, result[0], result + 1))
+              return;
+          }
         for (unsigned int layers = 0; layers < 3; ++layers)
           {
             patches.cells_of(patch, layers, cells);
@@ -42,9 +51,22 @@ namespace tetradapt::compare
       }
 
     private:
-      const RecoveryPatches &patches;
-      PatchSolver<degree>    solver;
-      PatchFits<degree - 1>  lower;
+      /** Samples a coefficient; see RecoveredStress. */
+      static constexpr unsigned int samples_at_curved_walls = 15;
+
+      bool
+      is_on_curved_wall(const unsigned int patch) const
+      {
+        return degree == 2 && conditions != nullptr
+               && conditions->on_curved_wall[patches.vertex[patch]] != 0;
+      }
+
+      const mesh::TetMesh    &mesh;
+      const RecoveryPatches  &patches;
+      const StressConditions *conditions;
+      unsigned int            cells_at_curved_walls;
+      PatchSolver<degree>     solver;
+      PatchFits<degree - 1>   lower;
     };
 
     /** A constant is always determined. */

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/compare/recovery_patches.h"
 
+#include "tetradapt/compare/field_evaluator.h"
+
 #include <algorithm>
 
 namespace tetradapt::compare
@@ -69,6 +71,36 @@ namespace tetradapt::compare
         std::sort(result.begin(), result.end());
         result.erase(std::unique(result.begin(), result.end()), result.end());
       }
+  }
+
+  void
+  RecoveryPatches::nearest_cells(const mesh::TetMesh       &mesh,
+                                 const unsigned int         patch,
+                                 const unsigned int         n_cells,
+                                 std::vector<unsigned int> &result) const
+  {
+    cells_of(patch, 0, result);
+    const std::vector<unsigned int> own = result;
+    for (unsigned int layers = 1; layers <= 2 && result.size() < n_cells; ++layers)
+      cells_of(patch, layers, result);
+    if (own.size() >= n_cells || result.size() <= n_cells)
+      return;
+    const Point<3>     &vertex_point = mesh.points[vertex[patch]];
+    std::vector<double> distances;
+    for (const unsigned int cell : result)
+      distances.push_back(
+        std::binary_search(own.begin(), own.end(), cell)
+          ? 0.
+          : position(mesh, cell, {{.25, .25, .25, .25}}).distance_square(vertex_point));
+    std::vector<double> sorted = distances;
+    std::nth_element(sorted.begin(), sorted.begin() + (n_cells - 1), sorted.end());
+    // Equal distances differ by rounding only.
+    const double limit = (1. + 1e-9) * sorted[n_cells - 1];
+    unsigned int kept  = 0;
+    for (unsigned int k = 0; k < result.size(); ++k)
+      if (distances[k] <= limit)
+        result[kept++] = result[k];
+    result.resize(kept);
   }
 
   unsigned int

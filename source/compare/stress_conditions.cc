@@ -181,15 +181,21 @@ namespace tetradapt::compare
                                      const CellStress       &stress,
                                      const RecoveryPatches  &patches,
                                      const GivenLoads       &loads)
-    : on_boundary(u_h.mesh().n_points(), 0), begin(u_h.mesh().n_cells() + std::size_t(1), 0)
+    : on_boundary(u_h.mesh().n_points(), 0), on_curved_wall(on_boundary),
+      begin(u_h.mesh().n_cells() + std::size_t(1), 0)
   {
     const mesh::TetMesh                               &mesh = u_h.mesh();
     std::vector<std::pair<unsigned int, unsigned int>> order; // of cells, then faces
     for (unsigned int f = 0; f < mesh.faces.size(); ++f)
       {
         order.emplace_back(patches.cell_of_face(mesh, f), f);
+        const bool is_curved = loads.surface().is_projected(f);
         for (const unsigned int v : mesh.faces[f].vertices)
-          on_boundary[v] = 1;
+          {
+            on_boundary[v] = 1;
+            if (is_curved)
+              on_curved_wall[v] = 1;
+          }
       }
     std::sort(order.begin(), order.end());
     faces.reserve(order.size());

@@ -14,6 +14,7 @@
 
 #include "test_meshes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -134,6 +135,48 @@ namespace
     if (!(estimate < 1e-9))
       std::cout << estimate << std::endl;
   }
+  /** Whether every patch of two regions gets the nearest cells of its region, no more than
+   * it must, and all at the same distance. */
+  bool
+  nearest_cells_are_right(const mesh::TetMesh &mesh, const unsigned int n_cells)
+  {
+    const RecoveryPatches     patches(mesh);
+    std::vector<unsigned int> own, largest, cells;
+    for (unsigned int patch = 0; patch < patches.size(); ++patch)
+      {
+        patches.cells_of(patch, 0, own);
+        patches.cells_of(patch, 2, largest);
+        patches.nearest_cells(mesh, patch, n_cells, cells);
+        const auto distance = [&](const unsigned int cell) {
+          Tensor<1, 3> center;
+          for (const unsigned int v : mesh.cells[cell])
+            center += 0.25 * Tensor<1, 3>(mesh.points[v]);
+          return Point<3>(center).distance(mesh.points[patches.vertex[patch]]);
+        };
+        double       farthest = 0.;
+        unsigned int nearer   = own.size(); // cells of the patch and nearer than the farthest
+        for (const unsigned int cell : cells)
+          if (!std::binary_search(own.begin(), own.end(), cell))
+            farthest = std::max(farthest, distance(cell));
+        for (const unsigned int cell : cells)
+          nearer += !std::binary_search(own.begin(), own.end(), cell)
+                    && distance(cell) < farthest * (1. - 1e-6);
+        if (!std::includes(cells.begin(), cells.end(), own.begin(), own.end())
+            || !std::includes(largest.begin(), largest.end(), cells.begin(), cells.end())
+            || cells.size() < std::min<std::size_t>(n_cells, largest.size())
+            || (cells.size() > own.size() && nearer >= n_cells))
+          return false;
+        patches.cells_of(patch, 1, largest);
+        for (const unsigned int cell : largest)
+          if (cells.size() > own.size() && distance(cell) < farthest * (1. - 1e-6)
+              && !std::binary_search(cells.begin(), cells.end(), cell))
+            return false; // left out, although it is near
+        for (const unsigned int cell : cells)
+          if (mesh.regions[cell] != mesh.regions[own[0]])
+            return false;
+      }
+    return true;
+  }
 } // namespace
 
 int
@@ -152,6 +195,13 @@ main()
     return Point<3>(q[0] + q[1], q[1] - 0.3 * q[0], 1e-3 * q[2] + 0.3 * q[0]);
   };
   const auto same = [](const Point<3> &p) { return p; };
+  for (const unsigned int n : {1, 10, 38, 1000})
+    std::cout << "nearest " << n << " cells: "
+              << (nearest_cells_are_right(*cube(4, same), n)
+                      && nearest_cells_are_right(*cube(6, shake), n)
+                    ? "right"
+                    : "WRONG")
+              << std::endl;
   for (unsigned int degree = 1; degree <= 2; ++degree)
     {
       const auto u

@@ -24,6 +24,18 @@ namespace tetradapt::compare
    * points as coefficients, or whose points determine the polynomial badly (in corners,
    * in layers of one cell), is enlarged by the patches of its cells' vertices, twice at
    * most; where that does not help, the polynomial's degree is lowered.
+   *
+   * Quadratic polynomials around points of walls that the boundary is projected on are fitted
+   * to 15 times as many points as they have coefficients, those of the patch and of the
+   * nearest cells around it. Facets leave an error of the order h in the stresses of the
+   * cells at the wall, which changes from facet to facet and is larger than that of quadratic
+   * elements. A patch of few cells follows it, and magnifies it where its points lie nearly on
+   * a quadric, as they do where a mesh is refined regularly: on a plane wall they lie exactly
+   * on one, and the patch is enlarged anyway. (Measured on a cylinder of 68 000 cells: the
+   * error of the recovered stress in the cells at the wall is 2.6 times that of the computed
+   * one with patches of at least 5 cells, 0.6 times if badly determined ones are enlarged, 0.3
+   * to 0.4 times with these; with the whole next layer of cells it is the same, but on meshes
+   * of 1 000 cells such patches are too large for a quadratic polynomial.)
    */
   class RecoveredStress
   {

@@ -26,6 +26,15 @@ namespace tetradapt::compare
     void
     cells_of(unsigned int patch, unsigned int layers, std::vector<unsigned int> &result) const;
 
+    /** The cells of @p patch and, until there are @p n_cells, the ones around it (at most two
+     * layers of them, in the same region) whose centres are nearest to its vertex, in
+     * increasing order. Of cells at equal distances all are taken or none. */
+    void
+    nearest_cells(const mesh::TetMesh       &mesh,
+                  unsigned int               patch,
+                  unsigned int               n_cells,
+                  std::vector<unsigned int> &result) const;
+
     std::vector<unsigned int>                vertex;  ///< of each patch
     std::vector<unsigned int>                begin;   ///< of each patch in cells; one more entry
     std::vector<unsigned int>                cells;   ///< increasing in each patch

@@ -72,10 +72,11 @@ namespace tetradapt::compare
                      const RecoveryPatches  &patches,
                      const GivenLoads       &loads);
 
-    std::vector<char>         on_boundary; ///< per point of the mesh
-    std::vector<unsigned int> begin;       ///< of each cell in faces; one more entry
-    std::vector<Face>         faces;       ///< sorted by cells
-    std::vector<Tensor<1, 3>> forces;      ///< body force in the cells' centres; empty: none
+    std::vector<char>         on_boundary;    ///< per point of the mesh
+    std::vector<char>         on_curved_wall; ///< per point: of a face that is projected
+    std::vector<unsigned int> begin;          ///< of each cell in faces; one more entry
+    std::vector<Face>         faces;          ///< sorted by cells
+    std::vector<Tensor<1, 3>> forces;         ///< body force in the cells' centres; empty: none
   };
 } // namespace tetradapt::compare
 
