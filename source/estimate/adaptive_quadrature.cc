@@ -3,6 +3,7 @@
 
 #include "tetradapt/compare/parallel.h"
 #include "tetradapt/compare/tet_quadrature.h"
+#include "tetradapt/mesh/simplex_parts.h"
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -15,25 +16,6 @@ namespace tetradapt::estimate
   {
     /** Parts 2^-12 of a cell are as good as points. */
     constexpr unsigned int last_level = 12;
-
-    mesh::Barycentric
-    combine(const mesh::Barycentric *corners, const double *weights, unsigned int n)
-    {
-      mesh::Barycentric b{{0., 0., 0., 0.}};
-      for (unsigned int k = 0; k < n; ++k)
-        for (unsigned int i = 0; i < 4; ++i)
-          b[i] += weights[k] * corners[k][i];
-      return b;
-    }
-
-    mesh::Barycentric
-    middle_of(const mesh::Barycentric &a, const mesh::Barycentric &b)
-    {
-      mesh::Barycentric result;
-      for (unsigned int i = 0; i < 4; ++i)
-        result[i] = 0.5 * (a[i] + b[i]);
-      return result;
-    }
 
     Point<3>
     position(const mesh::TetMesh &mesh, unsigned int cell, const mesh::Barycentric &b)
@@ -108,31 +90,6 @@ namespace tetradapt::estimate
   }
 
   template <unsigned int n_corners>
-  template <typename Action>
-  void
-  AdaptiveQuadrature<n_corners>::for_children(const Corners &c, const Action &action)
-  {
-    // One part at each corner, and the rest: a triangle, or four tetrahedra around one
-    // diagonal of an octahedron.
-    for (unsigned int i = 0; i < n_corners; ++i)
-      {
-        Corners child = c;
-        for (unsigned int j = 0; j < n_corners; ++j)
-          child[j] = middle_of(c[i], c[j]);
-        action(child);
-      }
-    const auto m = [&c](unsigned int i, unsigned int j) { return middle_of(c[i], c[j]); };
-    if constexpr (n_corners == 3)
-      action(Corners{{m(0, 1), m(1, 2), m(2, 0)}});
-    else
-      {
-        const std::array<mesh::Barycentric, 4> ring{{m(0, 1), m(1, 3), m(2, 3), m(0, 2)}};
-        for (unsigned int k = 0; k < 4; ++k)
-          action(Corners{{m(0, 3), m(1, 2), ring[k], ring[(k + 1) % 4]}});
-      }
-  }
-
-  template <unsigned int n_corners>
   typename AdaptiveQuadrature<n_corners>::Values
   AdaptiveQuadrature<n_corners>::integrate(unsigned int         cell,
                                            const Corners       &corners,
@@ -144,7 +101,7 @@ namespace tetradapt::estimate
     values.resize(rule.points.size());
     for (unsigned int q = 0; q < rule.points.size(); ++q)
       {
-        const auto b = combine(corners.data(), rule.points[q].data(), n_corners);
+        const auto b = mesh::point_in_part<n_corners, 4>(corners, rule.points[q]);
         densities.evaluate(position(mesh, cell, b), values[q].data());
         for (unsigned int i = 0; i < densities.n; ++i)
           sum[i] += measure * rule.weights[q] * values[q][i];
@@ -190,7 +147,7 @@ namespace tetradapt::estimate
     if (is_large(cell, corners))
       {
         found = false;
-        for_children(corners, [&](const Corners &child) {
+        mesh::for_children(corners, [&](const Corners &child) {
           found = add_sizes(cell, child, measure / (n_corners == 4 ? 8. : 4.), sums) || found;
         });
         return found;
@@ -269,7 +226,7 @@ namespace tetradapt::estimate
                       || is_accurate(cell, corners, measure, sum, tolerances);
     if (!good)
       {
-        for_children(corners, [&](const Corners &child) {
+        mesh::for_children(corners, [&](const Corners &child) {
           refine(cell, child, measure / (n_corners == 4 ? 8. : 4.), tolerances, level + 1, visitor);
         });
         return;
@@ -278,7 +235,7 @@ namespace tetradapt::estimate
       if (std::any_of(values[q].begin(), values[q].begin() + densities.n, [](double value) {
             return value != 0.;
           }))
-        visitor(combine(corners.data(), middle.points[q].data(), n_corners),
+        visitor(mesh::point_in_part<n_corners, 4>(corners, middle.points[q]),
                 measure * middle.weights[q],
                 values[q].data());
   }

@@ -56,7 +56,7 @@ namespace tetradapt::mechanics
     const Function                &density;
     const SamplingRules<n>        &rules;
     Samples                       &samples;
-    Tensor<1, 3>                   change; ///< of integrals by the last cut that was allowed
+    Tensor<1, 3>                   change{}; ///< of integrals by the last cut that was allowed
     double                         rough   = 0.;
     bool                           unknown = false; ///< parts without a coarser one to compare
 

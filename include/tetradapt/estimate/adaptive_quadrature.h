@@ -96,9 +96,6 @@ namespace tetradapt::estimate
               std::vector<Values> &values) const;
     bool
     agree(const Values &a, const Values &b, const double *tolerances) const;
-    template <typename Action>
-    static void
-    for_children(const Corners &corners, const Action &action);
     void
     refine(unsigned int   cell,
            const Corners &corners,
