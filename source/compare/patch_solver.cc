@@ -108,29 +108,35 @@ namespace tetradapt::compare
     input.on_boundary = conditions->on_boundary[vertex] != 0;
     faces.clear();
     if (input.on_boundary)
-      gather_faces(cells);
+      gather_faces(vertex, cells);
     input.faces   = faces.data();
     input.n_faces = faces.size();
   }
 
   template <unsigned int degree>
   void
-  PatchSolver<degree>::gather_faces(const std::vector<unsigned int> &cells)
+  PatchSolver<degree>::gather_faces(const unsigned int               vertex,
+                                    const std::vector<unsigned int> &cells)
   {
     planes.clear();
+    // Each point of a curved wall has a normal of its own, which costs: the nearest are enough.
+    const bool only_nearest = conditions->on_curved_wall[vertex] != 0;
     for (const unsigned int cell : cells)
-      for (unsigned int f = conditions->begin[cell]; f < conditions->begin[cell + 1]; ++f)
-        {
-          const auto   &face   = conditions->faces[f];
-          const double *matrix = &face.matrix[0][0];
-          const auto    plane  = std::find_if(planes.begin(), planes.end(), [&](const double *m) {
-            return equal_but_for_rounding(matrix, m);
-          });
-          const unsigned int number = plane - planes.begin();
-          if (plane == planes.end())
-            planes.push_back(matrix);
-          faces.push_back({planes[number], &face.points[0][0], face.right, face.n_points, number});
-        }
+      if (const auto &corners = mesh.cells[cell];
+          !only_nearest || std::find(corners.begin(), corners.end(), vertex) != corners.end())
+        for (unsigned int f = conditions->begin[cell]; f < conditions->begin[cell + 1]; ++f)
+          {
+            const auto   &face   = conditions->faces[f];
+            const double *matrix = &face.matrix[0][0];
+            const auto    plane  = std::find_if(planes.begin(), planes.end(), [&](const double *m) {
+              return equal_but_for_rounding(matrix, m);
+            });
+            const unsigned int number = plane - planes.begin();
+            if (plane == planes.end())
+              planes.push_back(matrix);
+            faces.push_back(
+              {planes[number], &face.points[0][0], face.right, face.n_points, number});
+          }
     if (planes.size() > 1)
       std::stable_sort(faces.begin(), faces.end(), [](const auto &a, const auto &b) {
         return a.plane < b.plane;

@@ -51,9 +51,10 @@ namespace tetradapt::compare
   private:
     void
     gather_conditions(unsigned int vertex, const std::vector<unsigned int> &cells);
-    /** Faces of one plane after each other. */
+    /** Faces of one plane after each other; on curved walls only those of the cells around
+     * @p vertex. */
     void
-    gather_faces(const std::vector<unsigned int> &cells);
+    gather_faces(unsigned int vertex, const std::vector<unsigned int> &cells);
 
     const mesh::TetMesh    &mesh;
     const StressSamples    &samples;

@@ -33,9 +33,9 @@ namespace tetradapt::compare
    * a quadric, as they do where a mesh is refined regularly: on a plane wall they lie exactly
    * on one, and the patch is enlarged anyway. (Measured on a cylinder of 68 000 cells: the
    * error of the recovered stress in the cells at the wall is 2.6 times that of the computed
-   * one with patches of at least 5 cells, 0.6 times if badly determined ones are enlarged, 0.3
-   * to 0.4 times with these; with the whole next layer of cells it is the same, but on meshes
-   * of 1 000 cells such patches are too large for a quadratic polynomial.)
+   * one with patches of at least 5 cells, 0.54 times if badly determined ones are enlarged,
+   * 0.43 times with these; 0.35 times with the whole next layer of cells, but on meshes of
+   * 1 000 cells such patches are too large for a quadratic polynomial.)
    */
   class RecoveredStress
   {
