@@ -83,8 +83,9 @@ namespace tetradapt::adapt
         if (!text.empty())
           lines.push_back("Cycle " + std::to_string(record.cycle) + ": Loads/" + load.name + " is "
                           + text + ".");
-        if (!load.total.remark.empty())
-          lines.push_back(load.total.remark);
+        for (const std::string *remark : {&load.total.remark, &load.total.note})
+          if (!remark->empty())
+            lines.push_back(*remark);
       }
     return lines;
   }
@@ -103,6 +104,10 @@ namespace tetradapt::adapt
                             "place of if()."});
         if (!load.total.remark.empty())
           doubts.push_back({load.total.remark, "Features smaller than that may be missed."});
+        if (!load.total.note.empty())
+          doubts.push_back({load.total.note,
+                            "If the pin presses on other faces too, select them; if it acts along "
+                            "another direction, give that in Value."});
       }
     return doubts;
   }

@@ -5,6 +5,7 @@
 #include "tetradapt/estimate/goal_points.h"
 #include "tetradapt/mechanics/held_loads.h"
 #include "tetradapt/mechanics/point_conditions.h"
+#include "tetradapt/mechanics/surface_loads.h"
 
 namespace tetradapt::adapt
 {
@@ -13,6 +14,7 @@ namespace tetradapt::adapt
                   const std::shared_ptr<const mesh::TetMesh> &mesh,
                   const core::Log                            &log)
   {
+    mechanics::SurfaceLoads(scene, *mesh).check();
     for (const auto &warning : mechanics::held_load_warnings(scene, *mesh))
       log.warning(scene.with_place(warning));
     for (const auto &warning : mechanics::held_point_force_warnings(scene, *mesh))

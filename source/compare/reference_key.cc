@@ -114,6 +114,21 @@ namespace tetradapt::compare
           describe(text, load.selector);
           describe(text, load.place);
           text.list("value", load.value);
+          if (load.type == scene::LoadType::total_force)
+            {
+              text.list("moment", load.total.moment);
+              text("distribution", static_cast<int>(load.total.distribution));
+              for (unsigned int d = 0; load.total.about && d < 3; ++d)
+                text("about", (*load.total.about)[d]);
+            }
+          if (load.type == scene::LoadType::rotation)
+            {
+              for (unsigned int d = 0; d < 3; ++d)
+                text("axis point", load.rotation.axis_point[d]);
+              for (unsigned int d = 0; load.rotation.axis && d < 3; ++d)
+                text("axis", (*load.rotation.axis)[d]);
+              text("angular velocity", load.rotation.angular_velocity);
+            }
         }
       text("solver", static_cast<int>(scene.solver.type));
       text("tolerance", scene.solver.tolerance);

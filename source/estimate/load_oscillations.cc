@@ -15,9 +15,13 @@ namespace tetradapt::estimate
 {
   namespace
   {
+    /** Whether a load may be other than what the equilibrated stress has room for; a total force
+     * that is even and a rotation are linear. */
     bool
     varies(const scene::LoadParameters &load)
     {
+      if (load.type == scene::LoadType::total_force)
+        return load.total.distribution == scene::Distribution::bearing;
       return load.type != scene::LoadType::nodal_force && load.type != scene::LoadType::point_force
              && !core::SurfaceExpression(load.value, "Loads/" + load.name + "/Value").is_constant();
     }

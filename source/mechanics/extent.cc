@@ -33,7 +33,7 @@ namespace tetradapt::mechanics
   acts_on_body(const scene::LoadType type)
   {
     return type == scene::LoadType::body_force || type == scene::LoadType::gravity
-           || type == scene::LoadType::temperature;
+           || type == scene::LoadType::rotation || type == scene::LoadType::temperature;
   }
 
   Extent

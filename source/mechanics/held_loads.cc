@@ -21,6 +21,9 @@ namespace tetradapt::mechanics
     Components
     components_of(const scene::LoadParameters &load)
     {
+      // Where a total force has a moment about the faces' centroid, it has all of them.
+      if (load.total.about || load.total.moment != scene::TotalForceParameters().moment)
+        return 7;
       Components components = 0;
       for (unsigned int c = 0; c < 3; ++c)
         {
@@ -71,24 +74,38 @@ namespace tetradapt::mechanics
       return holds;
     }
 
+    /** A force on a bearing; it presses on faces whose normals point against it. */
+    dealii::Tensor<1, 3>
+    bearing_force(const scene::LoadParameters &load)
+    {
+      return core::SurfaceExpression(load.value,
+                                     "Loads/" + load.name + "/Value")(core::Point<3>(),
+                                                                      core::Tensor<1, 3>());
+    }
+
     HeldLoad
     look_at(const scene::LoadParameters &load,
             const mesh::TetMesh         &mesh,
             const std::vector<Hold>     &holds)
     {
       HeldLoad result;
-      result.name                  = "Loads/" + load.name;
-      const bool       is_pressure = load.type == scene::LoadType::pressure;
+      result.name           = "Loads/" + load.name;
+      const bool is_bearing = load.type == scene::LoadType::total_force
+                              && load.total.distribution == scene::Distribution::bearing;
+      const bool       is_pressure = load.type == scene::LoadType::pressure || is_bearing;
+      const auto       force       = is_bearing ? bearing_force(load) : dealii::Tensor<1, 3>();
       const Components fixed       = is_pressure ? 0 : components_of(load);
       for (const auto &face : mesh.faces)
         {
           const auto &selections = mesh.patches[face.patch].selections;
           if (std::count(selections.begin(), selections.end(), result.name) == 0)
             continue;
-          const auto       normal = mesh::face_area_vector(mesh, face);
-          const double     area   = normal.norm();
-          const Components own    = is_pressure ? components_of(normal) : fixed;
-          const Hold      &hold   = holds[face.patch];
+          const auto normal = mesh::face_area_vector(mesh, face);
+          if (is_bearing && normal * force >= 0.)
+            continue;
+          const double     area = normal.norm();
+          const Components own  = is_pressure ? components_of(normal) : fixed;
+          const Hold      &hold = holds[face.patch];
           result.area += area;
           if ((own & hold.components) == 0)
             continue;

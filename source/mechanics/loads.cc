@@ -93,6 +93,7 @@ namespace tetradapt::mechanics
           {
           case scene::LoadType::traction:
           case scene::LoadType::pressure:
+          case scene::LoadType::total_force:
             add_face_load(number, total);
             break;
           case scene::LoadType::nodal_force:
@@ -103,6 +104,7 @@ namespace tetradapt::mechanics
             break;
           case scene::LoadType::body_force:
           case scene::LoadType::gravity:
+          case scene::LoadType::rotation:
             add_volume_load(*materials.body_forces().at(number), total);
             break;
           case scene::LoadType::temperature:
@@ -135,6 +137,7 @@ namespace tetradapt::mechanics
               }
           }
         total.remark = surface_loads.remark(number);
+        total.note   = surface_loads.note(number);
       }
 
       /** The force at every point of the mesh that a selected face has, once each

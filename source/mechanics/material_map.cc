@@ -12,6 +12,8 @@ namespace tetradapt::mechanics
 {
   namespace
   {
+    using scene::LoadType;
+
     std::string
     list_regions(const std::set<int> &regions, const std::map<int, std::string> &names)
     {
@@ -24,6 +26,50 @@ namespace tetradapt::mechanics
             text << " ('" << name->second << "')";
         }
       return text.str();
+    }
+
+    /** What a load's value is multiplied with in a material. */
+    double
+    factor(const LoadType type, const scene::MaterialParameters &material)
+    {
+      switch (type)
+        {
+        case LoadType::temperature:
+          return material.thermal_expansion;
+        case LoadType::gravity:
+        case LoadType::rotation:
+          return material.density;
+        default:
+          return 1.;
+        }
+    }
+
+    std::string
+    exact_text(const double value)
+    {
+      std::ostringstream text;
+      text.precision(17);
+      text << '(' << value << ')';
+      return text.str();
+    }
+
+    /** w^2 (r - (r . e) e) with r = x - p, for the angular velocity w about the axis through p in
+     * the direction of the unit vector e. */
+    std::array<std::string, 3>
+    centrifugal_acceleration(const scene::RotationParameters &rotation)
+    {
+      const double               w = rotation.angular_velocity;
+      const dealii::Point<3>     e = *rotation.axis / rotation.axis->norm();
+      std::array<std::string, 3> texts{{"0", "0", "0"}};
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = 0; j < 3; ++j)
+          {
+            const double slope = w * w * ((i == j ? 1. : 0.) - e[i] * e[j]);
+            if (slope != 0.)
+              texts[i] += " + " + exact_text(slope) + "*(" + "xyz"[j] + " - "
+                          + exact_text(rotation.axis_point[j]) + ")";
+          }
+      return texts;
     }
   } // namespace
 
@@ -108,21 +154,17 @@ namespace tetradapt::mechanics
   void
   MaterialMap::add_loads(const scene::Scene &scene, const mesh::TetMesh &mesh)
   {
-    using scene::LoadType;
     for (unsigned int i = 0; i < scene.loads.size(); ++i)
       {
         const scene::LoadParameters &load = scene.loads[i];
         if (load.type != LoadType::temperature && load.type != LoadType::body_force
-            && load.type != LoadType::gravity)
+            && load.type != LoadType::gravity && load.type != LoadType::rotation)
           continue;
         const std::string     what = "Loads/" + load.name;
         std::map<int, double> factors;
         for (const int region :
              resolve_regions(load.selector.ids, load.selector.groups, mesh, what))
-          factors[region] = load.type == LoadType::temperature
-                              ? parameters(region).thermal_expansion
-                            : load.type == LoadType::gravity ? parameters(region).density
-                                                             : 1.;
+          factors[region] = factor(load.type, parameters(region));
         if (load.type == LoadType::temperature)
           {
             temperatures->add_term({{load.value[0], "0", "0"}},
@@ -134,7 +176,12 @@ namespace tetradapt::mechanics
         else
           {
             auto density = std::make_shared<VolumeDensity>(mesh::bounding_box(mesh));
-            density->add_term(load.value, what, factors, load.smallest_feature);
+            density->add_term(load.type == LoadType::rotation
+                                ? centrifugal_acceleration(load.rotation)
+                                : load.value,
+                              what,
+                              factors,
+                              load.smallest_feature);
             forces.emplace(i, std::move(density));
           }
       }

@@ -28,8 +28,9 @@ namespace tetradapt::mechanics
   struct SurfaceLoads::Load
   {
     explicit Load(const scene::LoadParameters &load)
-      : name("Loads/" + load.name), texts(texts_of(load)), value(texts, name + "/Value"),
-        is_pressure(load.type == scene::LoadType::pressure), is_constant(value.is_constant()),
+      : parameters(load), name("Loads/" + load.name), texts(texts_of(load)),
+        value(texts, name + "/Value"), is_pressure(load.type == scene::LoadType::pressure),
+        is_total(load.type == scene::LoadType::total_force), is_constant(value.is_constant()),
         uses_normal(value.uses_normal()),
         is_polynomial(std::all_of(texts.begin(), texts.end(), core::is_polynomial)),
         smallest_feature(load.smallest_feature)
@@ -44,10 +45,11 @@ namespace tetradapt::mechanics
       return is_constant ? constant : value(point, normal);
     }
 
+    scene::LoadParameters      parameters;
     std::string                name;
     std::array<std::string, 3> texts;
     core::SurfaceExpression    value;
-    bool                       is_pressure, is_constant, uses_normal, is_polynomial;
+    bool                       is_pressure, is_total, is_constant, uses_normal, is_polynomial;
     double                     smallest_feature;
     Tensor<1, 3>               constant;
     /** Found when they are first needed. */
@@ -55,6 +57,8 @@ namespace tetradapt::mechanics
     mutable double           wanted = 0., spacing = 0.; ///< of looks
     mutable double           largest = 0.;              ///< |density|
     mutable SamplingRules<3> rules;
+    /** Of a total force. */
+    mutable std::unique_ptr<ResultantTraction> resultant;
   };
 
   SurfaceLoads::SurfaceLoads(const scene::Scene &scene, const mesh::TetMesh &mesh)
@@ -63,7 +67,7 @@ namespace tetradapt::mechanics
     for (unsigned int i = 0; i < scene.loads.size(); ++i)
       {
         const auto &load = scene.loads[i];
-        if (load.type != scene::LoadType::traction && load.type != scene::LoadType::pressure)
+        if (!scene::acts_on_surface(load.type))
           continue;
         loads.emplace(i, std::make_unique<Load>(load));
         const std::string selection = "Loads/" + load.name;
@@ -84,6 +88,10 @@ namespace tetradapt::mechanics
                          const Point<3>     &point,
                          const Tensor<1, 3> &normal) const
   {
+    if (const ResultantTraction *total = resultant(number))
+      return total->value(point,
+                          total->uses_normal() ? surface().at(face, point).normal : normal,
+                          normal);
     const Load        &load  = *loads.at(number);
     const Tensor<1, 3> value = load.uses_normal ? load.at(point, surface().at(face, point).normal)
                                                 : load.at(point, Tensor<1, 3>());
@@ -93,37 +101,63 @@ namespace tetradapt::mechanics
   Tensor<1, 3>
   SurfaceLoads::surface_traction(const unsigned int number, const mesh::SurfacePoint &at) const
   {
+    if (const ResultantTraction *total = resultant(number))
+      return total->value(at.point, at.normal, at.normal);
     const Load        &load  = *loads.at(number);
     const Tensor<1, 3> value = load.at(at.point, at.normal);
     return load.is_pressure ? -value[0] * at.normal : value;
   }
 
   bool
-  SurfaceLoads::is_constant(const unsigned int load) const
+  SurfaceLoads::is_constant(const unsigned int number) const
   {
-    return loads.at(load)->is_constant;
+    const ResultantTraction *total = resultant(number);
+    return total != nullptr ? total->is_constant() : loads.at(number)->is_constant;
   }
 
   Tensor<1, 3>
   SurfaceLoads::constant_traction(const unsigned int number, const Tensor<1, 3> &normal) const
   {
+    if (const ResultantTraction *total = resultant(number))
+      return total->value(Point<3>(), normal, normal);
     const Load &load = *loads.at(number);
     return load.is_pressure ? -load.constant[0] * normal : load.constant;
+  }
+
+  std::vector<unsigned int>
+  SurfaceLoads::faces_of(const unsigned int number) const
+  {
+    std::vector<unsigned int> faces;
+    for (unsigned int f = 0; f < mesh.faces.size(); ++f)
+      {
+        const auto &numbers = on_face(f);
+        if (std::find(numbers.begin(), numbers.end(), number) != numbers.end())
+          faces.push_back(f);
+      }
+    return faces;
+  }
+
+  const ResultantTraction *
+  SurfaceLoads::resultant(const unsigned int number) const
+  {
+    const Load &load = *loads.at(number);
+    if (!load.is_total || load.resultant != nullptr)
+      return load.resultant.get();
+    const auto faces = faces_of(number);
+    load.resultant   = std::make_unique<ResultantTraction>(
+      load.parameters.total.distribution == scene::Distribution::even
+          ? ResultantTraction::even(load.parameters, mesh, faces)
+          : ResultantTraction::bearing(load.parameters, mesh, faces, surface(), sampler));
+    return load.resultant.get();
   }
 
   void
   SurfaceLoads::look_at(const Load &load, const unsigned int number) const
   {
-    std::vector<unsigned int> faces;
-    double                    total_area = 0.;
-    for (unsigned int f = 0; f < mesh.faces.size(); ++f)
-      {
-        const auto &numbers = on_face(f);
-        if (std::find(numbers.begin(), numbers.end(), number) == numbers.end())
-          continue;
-        faces.push_back(f);
-        total_area += mesh::face_area_vector(mesh, mesh.faces[f]).norm();
-      }
+    const std::vector<unsigned int> faces      = faces_of(number);
+    double                          total_area = 0.;
+    for (const unsigned int f : faces)
+      total_area += mesh::face_area_vector(mesh, mesh.faces[f]).norm();
     const auto box = mesh::bounding_box(mesh);
     load.wanted    = load.smallest_feature > 0. ? load.smallest_feature
                                                 : default_spacing * box.first.distance(box.second);
@@ -212,18 +246,22 @@ namespace tetradapt::mechanics
     const Load        &load = *loads.at(number);
     const Tensor<1, 3> area = mesh::face_area_vector(mesh, mesh.faces[face]);
     const double       size = area.norm();
-    if (load.is_constant)
+    if (is_constant(number))
       {
         const Tensor<1, 3> value = constant_traction(number, area / size);
         samples.assign(1, {{{1. / 3., 1. / 3., 1. / 3.}}, 1., value});
         return 0.;
       }
+    const ResultantTraction *total = resultant(number);
+    if (total != nullptr && total->uses_normal())
+      return total->sample_bearing(mesh, face, surface(), sampler, samples);
     const Tensor<1, 3> normal = area / size;
     const auto density = [&](const Point<3> &x) { return traction(number, face, x, normal); };
     const auto corners = corners_of(face);
-    if (load.uses_normal && load.is_polynomial)
+    if (total != nullptr || (load.uses_normal && load.is_polynomial))
       {
-        // The normal varies like the surface: the basic rule does, as for its shape.
+        // A total force is linear. The normal varies like the surface: the basic rule does, as
+        // for its shape.
         sampler.sample_basic(corners, density, samples);
         return 0.;
       }
@@ -236,6 +274,12 @@ namespace tetradapt::mechanics
                                 const Tensor<1, 3>            &normal,
                                 Samples                       &samples) const
   {
+    if (const ResultantTraction *total = resultant(number))
+      {
+        sampler.sample_basic(
+          corners, [&](const Point<3> &x) { return total->value(x, normal, normal); }, samples);
+        return 0.;
+      }
     const Load &load = *loads.at(number);
     return sample_carefully(
       load,
@@ -246,6 +290,13 @@ namespace tetradapt::mechanics
         return load.is_pressure ? -value[0] * normal : value;
       },
       samples);
+  }
+
+  void
+  SurfaceLoads::check() const
+  {
+    for (const auto &load : loads)
+      resultant(load.first);
   }
 
   const mesh::TrueSurface &
@@ -266,5 +317,12 @@ namespace tetradapt::mechanics
     text << load.name << ": the value is looked at with a spacing of " << load.spacing
          << " instead of " << load.wanted << ", as " << most_evaluations << " evaluations allow.";
     return text.str();
+  }
+
+  std::string
+  SurfaceLoads::note(const unsigned int number) const
+  {
+    const ResultantTraction *total = resultant(number);
+    return total != nullptr ? total->note() : "";
   }
 } // namespace tetradapt::mechanics

@@ -223,8 +223,7 @@ namespace tetradapt::mesh
       if (!support.place.is_set())
         selectors.emplace_back("Supports/" + support.name, support.selector);
     for (const auto &load : scene.loads)
-      if (load.type == scene::LoadType::traction || load.type == scene::LoadType::pressure
-          || load.type == scene::LoadType::nodal_force)
+      if (scene::acts_on_faces(load.type))
         selectors.emplace_back("Loads/" + load.name, load.selector);
     for (const auto &goal : scene.goals)
       if (goal.uses_faces() && !goal.selector.empty())

@@ -5,6 +5,7 @@
 #include "checks.h"
 #include "face_choice.h"
 #include "place_choice.h"
+#include "special_loads.h"
 
 #include "tetradapt/core/surface_expression.h"
 
@@ -37,7 +38,10 @@ namespace tetradapt::scene
              p.poisson_ratio,
              number_codec(),
              "nu, between -1 and 0.5; 0.5 itself with Formulation = mixed only.");
-      binder("Density", p.density, number_codec(), "Mass per volume; used by gravity.");
+      binder("Density",
+             p.density,
+             number_codec(),
+             "Mass per volume; used by gravity and rotation.");
       binder("Thermal expansion",
              p.thermal_expansion,
              number_codec(),
@@ -75,13 +79,6 @@ namespace tetradapt::scene
     }
 
     bool
-    acts_on_faces(const LoadType type)
-    {
-      return type == LoadType::traction || type == LoadType::pressure
-             || type == LoadType::nodal_force;
-    }
-
-    bool
     is_scalar(const LoadType type)
     {
       return type == LoadType::pressure || type == LoadType::temperature;
@@ -93,10 +90,12 @@ namespace tetradapt::scene
       binder("Type",
              p.type,
              word_codec<LoadType>(),
-             "traction: force per area; pressure: force per area against the outer normal; nodal "
+             "traction: force per area; pressure: force per area against the outer normal; total "
+             "force: the force, and a Moment, of the whole selection; nodal "
              "force: a force at every mesh point of the faces, so that the whole load grows with "
              "the mesh (for comparison with programs that do this); body force: force per volume; "
-             "gravity: an acceleration, times the density; "
+             "gravity: an acceleration, times the density; rotation: the centrifugal force of a "
+             "body that turns about an axis, by its density; "
              "temperature: its change, which causes thermal strain; point force: a force at one "
              "Point, where the energy does not converge.");
       const bool on_faces = acts_on_faces(p.type);
@@ -106,12 +105,12 @@ namespace tetradapt::scene
       binder("Regions",
              regions.ids,
              ids_codec(),
-             std::string("body force, gravity, temperature: ids of regions. ") + region_note
-               + "everywhere.");
+             std::string("body force, gravity, rotation, temperature: ids of regions. ")
+               + region_note + "everywhere.");
       binder("Region groups",
              regions.groups,
              names_codec(),
-             "body force, gravity, temperature: names of regions.");
+             "body force, gravity, rotation, temperature: names of regions.");
 
       bind_place(p.place, false, binder);
 
@@ -122,7 +121,8 @@ namespace tetradapt::scene
              values,
              value_codec(),
              "Expressions in x, y, z: three separated by semicolons for a vector, one for a "
-             "pressure or a temperature. A traction or a pressure may also use nx, ny, nz, the "
+             "pressure or a temperature; a total force: three constants; a rotation: none. A "
+             "traction or a pressure may also use nx, ny, nz, the "
              "unit normal that points out of the body: that of the surface which Mesh/Projection "
              "names at the nearest point, else that of the face of the mesh.");
       binder("Smallest feature",
@@ -131,6 +131,7 @@ namespace tetradapt::scene
              "Size of the smallest thing that Value may show, such as a peak or a patch. Value is "
              "looked at with this spacing, whatever the mesh, before it is integrated; 0: a "
              "hundredth of the body's diagonal.");
+      bind_special_loads(p, binder);
       if (!binder.parsing())
         return;
 
@@ -163,9 +164,10 @@ namespace tetradapt::scene
                     + (!faces.ids.empty()      ? "Boundary ids"
                        : !faces.groups.empty() ? "Groups"
                                                : "Where"),
-                  "a " + word(p.type)
-                    + " acts on the volume: choose it by Regions or Region groups, or make the "
-                      "value depend on x, y, z with if(condition, value, 0).");
+                  "a " + word(p.type) + " acts on the volume: choose it by Regions or Region groups"
+                    + (p.type == LoadType::rotation
+                         ? "."
+                         : ", or make the value depend on x, y, z with if(condition, value, 0)."));
           p.selector = regions;
         }
       const bool        untouched = values == std::vector<std::string>{"0", "0", "0"};
@@ -199,6 +201,19 @@ namespace tetradapt::scene
              "alone; 0: unknown.");
     }
   } // namespace
+
+  bool
+  acts_on_surface(const LoadType type)
+  {
+    return type == LoadType::traction || type == LoadType::pressure
+           || type == LoadType::total_force;
+  }
+
+  bool
+  acts_on_faces(const LoadType type)
+  {
+    return acts_on_surface(type) || type == LoadType::nodal_force;
+  }
 
   void
   MaterialParameters::declare(dealii::ParameterHandler &prm) const
@@ -311,8 +326,12 @@ namespace tetradapt::scene
                          path + "/Excluded radius",
                          "only a point force has one. Remove this.");
       }
-    const bool has_normal = type == LoadType::traction || type == LoadType::pressure;
-    for (unsigned int c = 0; c < (is_scalar(type) ? 1u : 3u); ++c)
+    check_special_load(*this, mistakes);
+    const bool         has_normal = type == LoadType::traction || type == LoadType::pressure;
+    const unsigned int n_values   = type == LoadType::total_force || type == LoadType::rotation ? 0
+                                    : is_scalar(type)                                           ? 1
+                                                                                                : 3;
+    for (unsigned int c = 0; c < n_values; ++c)
       mistakes.attempt([&]() {
         const std::string what
           = path + "/Value" + (is_scalar(type) ? "" : std::string(", component ") + "xyz"[c]);

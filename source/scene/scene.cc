@@ -7,6 +7,7 @@
 #include "checks.h"
 #include "place_choice.h"
 #include "scene_checks.h"
+#include "special_loads.h"
 #include "values.h"
 
 #include <algorithm>
@@ -94,18 +95,19 @@ namespace tetradapt::scene
       Mistakes mistakes;
       for (const auto &load : scene.loads)
         {
-          if (load.type == LoadType::gravity)
+          if (load.type == LoadType::gravity || load.type == LoadType::rotation)
             mistakes.require(
               any_material(scene, load, [](const MaterialParameters &m) { return m.density > 0.; }),
               "Loads/" + load.name + "/Type",
-              "gravity needs a density, and that of every material it acts on is 0. Set "
-              "Density in Materials/"
+              word(load.type)
+                + " needs a density, and that of every material it acts on is 0. Set "
+                  "Density in Materials/"
                 + scene.materials[0].name + ".");
         }
       bool anything = false;
       for (const auto &load : scene.loads)
         anything = anything
-                   || (!all_zero(load.value)
+                   || (zero_parameter(load).empty()
                        && (load.type != LoadType::temperature || expands(scene, load)));
       for (const auto &support : scene.supports)
         anything = anything || !all_zero(support.displacement);

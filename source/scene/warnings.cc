@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "scene_checks.h"
+#include "special_loads.h"
 
 #include "tetradapt/scene/words.h"
 
@@ -97,8 +98,8 @@ namespace tetradapt::scene
     for (const auto &load : loads)
       {
         const std::string path = "Loads/" + load.name;
-        if (all_zero(load.value))
-          messages.push_back(path + "/Value: is zero, so that the load does nothing.");
+        if (const std::string zero = zero_parameter(load); !zero.empty())
+          messages.push_back(path + "/" + zero + ": is zero, so that the load does nothing.");
         if (load.type == LoadType::temperature && !expands(*this, load))
           messages.push_back(path
                              + "/Type: the temperature does nothing, for no material it acts on "

@@ -30,8 +30,18 @@ namespace tetradapt::scene
                                        {LoadType::nodal_force, "nodal force"},
                                        {LoadType::body_force, "body force"},
                                        {LoadType::gravity, "gravity"},
+                                       {LoadType::total_force, "total force"},
+                                       {LoadType::rotation, "rotation"},
                                        {LoadType::temperature, "temperature"},
                                        {LoadType::point_force, "point force"}};
+    return table;
+  }
+
+  const Words<Distribution> &
+  words(Distribution)
+  {
+    static const Words<Distribution> table{{Distribution::even, "even"},
+                                           {Distribution::bearing, "bearing"}};
     return table;
   }
 

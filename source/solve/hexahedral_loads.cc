@@ -360,10 +360,12 @@ namespace tetradapt::solve
         {
         case scene::LoadType::traction:
         case scene::LoadType::pressure:
+        case scene::LoadType::total_force:
           add_side_load(scene.loads[number], number, surface_loads, forest, space, forces);
           break;
         case scene::LoadType::body_force:
         case scene::LoadType::gravity:
+        case scene::LoadType::rotation:
           add_volume_load(
             *materials.body_forces().at(number),
             forest,

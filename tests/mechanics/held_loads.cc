@@ -56,6 +56,14 @@ main()
   look("a roller across the load",
        with({foot, support("roller", "y < 1e-9", "y")},
             {load("shear", LoadType::traction, "y < 1e-9", {{"1", "0", "0"}})}));
+  auto pin = load("pin", LoadType::total_force, "x < 1e-9 || y < 1e-9", {{"1", "0", "0"}});
+  pin.total.distribution = scene::Distribution::bearing;
+  look("a pin on a support", with({foot}, {pin}));
+  look("a pin beside a support", with({support("roller", "y < 1e-9", "y")}, {pin}));
+  pin.total.distribution = scene::Distribution::even;
+  look("an even force there", with({support("roller", "y < 1e-9", "y")}, {pin}));
+  pin.total.moment = {{"0", "0", "1"}};
+  look("a moment there", with({support("roller", "y < 1e-9", "y")}, {pin}));
   look("a roller along the load",
        with({foot, support("roller", "y < 1e-9", "y")},
             {load("gas", LoadType::pressure, "y < 1e-9", {{"1", "0", "0"}}),

@@ -102,8 +102,16 @@ namespace
            const mesh::TetMesh          &mesh,
            const mechanics::MaterialMap &materials)
   {
-    const core::VectorExpression value(load.value, "load");
-    const auto                   regions
+    const core::VectorExpression expression(load.value, "load");
+    const bool                   turns = load.type == scene::LoadType::rotation;
+    const auto                   value = [&](const Point<3> &x) {
+      if (!turns)
+        return expression(x);
+      const Tensor<1, 3> e = *load.rotation.axis / load.rotation.axis->norm();
+      const Tensor<1, 3> r = x - load.rotation.axis_point;
+      return load.rotation.angular_velocity * load.rotation.angular_velocity * (r - (r * e) * e);
+    };
+    const auto regions
       = mechanics::resolve_regions(load.selector.ids, load.selector.groups, mesh, "load");
     const dealii::QGauss<1> rule(5);
     Integral                sum;
@@ -112,9 +120,10 @@ namespace
         const int region = mesh.regions[cell];
         if (regions.count(region) == 0)
           continue;
-        const double density
-          = load.type == scene::LoadType::gravity ? materials.parameters(region).density : 1.;
-        const double volume = mesh::cell_volume(mesh, cell);
+        const double density = turns || load.type == scene::LoadType::gravity
+                                 ? materials.parameters(region).density
+                                 : 1.;
+        const double volume  = mesh::cell_volume(mesh, cell);
         // The unit cube is folded into the tetrahedron.
         for (unsigned int i = 0; i < 5; ++i)
           for (unsigned int j = 0; j < 5; ++j)
@@ -157,10 +166,14 @@ namespace
         break;
       case scene::LoadType::body_force:
       case scene::LoadType::gravity:
+      case scene::LoadType::rotation:
         exact = in_cells(load, mesh, materials);
         break;
       case scene::LoadType::temperature:
         break;
+      case scene::LoadType::total_force:
+        return (computed.force - core::VectorExpression(load.value, "load")(Point<3>())).norm()
+               / computed.force.norm();
       default:
         return 0.; // totals that a scene gives: elsewhere
       }

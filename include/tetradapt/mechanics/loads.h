@@ -18,6 +18,8 @@ namespace tetradapt::mechanics
     double remainder = 0.;
     /** Empty, or a sentence about how the load was looked at. */
     std::string remark;
+    /** Empty, or a sentence about what a total force needed; see ResultantTraction::note(). */
+    std::string note;
 
     /** Whether the load is known well enough for a bound to be called guaranteed: zero or far
      * below what any error is measured to. */

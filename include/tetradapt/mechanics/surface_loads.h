@@ -4,6 +4,7 @@
 
 #include "tetradapt/core/surface_expression.h"
 #include "tetradapt/mechanics/density_sampler.h"
+#include "tetradapt/mechanics/resultant_traction.h"
 #include "tetradapt/mesh/true_surface.h"
 #include "tetradapt/scene/scene.h"
 
@@ -13,8 +14,9 @@
 namespace tetradapt::mechanics
 {
   /**
-   * The tractions and pressures of a scene on the boundary faces of one mesh: which act on a
-   * face, what they are at a point, and how they are integrated. All that integrates loads
+   * The tractions, pressures and total forces of a scene on the boundary faces of one mesh: which
+   * act on a face, what they are at a point, and how they are integrated. A total force becomes
+   * a traction when it is first asked for (ResultantTraction). All that integrates loads
    * or compares stresses with them asks here, so that all take the same.
    *
    * One object is to be used by one thread.
@@ -78,6 +80,11 @@ namespace tetradapt::mechanics
                     const Tensor<1, 3>            &normal,
                     Samples                       &samples) const;
 
+    /** Makes the tractions of all total forces.
+     * @throws core::InputError if the faces cannot carry one. */
+    void
+    check() const;
+
     /** The body's surface; made when it is first asked for. */
     const mesh::TrueSurface &
     surface() const;
@@ -86,6 +93,10 @@ namespace tetradapt::mechanics
      * asked for. */
     std::string
     remark(unsigned int load) const;
+
+    /** Empty, or what had to be added to load @p load; see ResultantTraction::note(). */
+    std::string
+    note(unsigned int load) const;
 
     /** Evaluations that looking at one load on one mesh may take: the spacing is as large as that
      * needs. About as many may be spent on jumps and peaks. */
@@ -105,6 +116,11 @@ namespace tetradapt::mechanics
                      Samples                           &samples) const;
     std::array<Point<3>, 3>
     corners_of(unsigned int face) const;
+    std::vector<unsigned int>
+    faces_of(unsigned int number) const;
+    /** The traction of a total force, made when it is first asked for; null for other loads. */
+    const ResultantTraction *
+    resultant(unsigned int number) const;
 
     const mesh::TetMesh                          &mesh;
     scene::MeshParameters                         mesh_parameters; ///< for the surface

@@ -124,8 +124,41 @@ namespace tetradapt::scene
     body_force,  ///< force per volume, on regions
     gravity,     ///< acceleration times the material's density, on regions
     nodal_force, ///< a force at every node (point of the mesh) of the faces, as LML has it
+    total_force, ///< a traction on faces with a given resultant, on every mesh
+    rotation,    ///< centrifugal force of a body that turns about an axis, on regions
     temperature, ///< temperature change: thermal strain alpha T I, on regions
     point_force  ///< a force at one point
+  };
+
+  /** Whether loads of this type are chosen by faces; others by regions or a point. */
+  bool
+  acts_on_faces(LoadType type);
+
+  /** Whether loads of this type are forces per area. */
+  bool
+  acts_on_surface(LoadType type);
+
+  /** How a total force is spread over the faces. */
+  enum class Distribution
+  {
+    even,   ///< a constant and, for the moment, the field of a rotation
+    bearing ///< as a pin presses on a hole: -n . d where that is positive
+  };
+
+  /** What a load of type LoadType::total_force has besides LoadParameters::value, the force. */
+  struct TotalForceParameters
+  {
+    std::array<std::string, 3>      moment{{"0", "0", "0"}}; ///< constants
+    std::optional<dealii::Point<3>> about; ///< of the moment; none: centroid of the faces
+    Distribution                    distribution = Distribution::even;
+  };
+
+  /** Of a load of type LoadType::rotation. */
+  struct RotationParameters
+  {
+    dealii::Point<3>                axis_point;            ///< on the axis
+    std::optional<dealii::Point<3>> axis;                  ///< its direction, of any length
+    double                          angular_velocity = 0.; ///< radians per time
   };
 
   /** A load. */
@@ -133,16 +166,18 @@ namespace tetradapt::scene
   {
     std::string name;
     LoadType    type = LoadType::traction;
-    /** Faces for tractions and pressures, regions (ids, groups) for the others. */
+    /** Faces or regions (ids, groups): see acts_on_faces(). */
     Selector selector;
     /** Expressions in x, y, z, t: three for vectors, one (the first) for
-     * pressure and temperature. */
+     * pressure and temperature. A total force has three constants, a rotation none. */
     std::array<std::string, 3> value{{"0", "0", "0"}};
     /** Size of the smallest thing that the value may show: a peak, a patch, half a wave. The
      * value is looked at with this spacing; 0: a hundredth of the body's size. */
     double smallest_feature = 0.;
     /** Point forces only: the point. */
-    PlaceParameters place;
+    PlaceParameters      place;
+    TotalForceParameters total;
+    RotationParameters   rotation;
 
     void
     declare(dealii::ParameterHandler &prm) const;

@@ -26,6 +26,7 @@ namespace tetradapt::scene
   const Words<MeshParameters::Projection>        &words(MeshParameters::Projection);
   const Words<SolverParameters::Stopping>        &words(SolverParameters::Stopping);
   const Words<LoadType>                          &words(LoadType);
+  const Words<Distribution>                      &words(Distribution);
   const Words<SolverParameters::Type>            &words(SolverParameters::Type);
   const Words<ReferenceParameters::Type>         &words(ReferenceParameters::Type);
   const Words<ReferenceParameters::MeshRoute>    &words(ReferenceParameters::MeshRoute);
