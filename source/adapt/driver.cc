@@ -6,7 +6,6 @@
 #include "tetradapt/adapt/load_record.h"
 #include "tetradapt/adapt/placement.h"
 #include "tetradapt/adapt/solution_record.h"
-#include "tetradapt/compare/stress_difference.h"
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/on_first_rank.h"
 #include "tetradapt/mesh/mesh_checks.h"
@@ -290,64 +289,6 @@ namespace tetradapt::adapt
              << " and " << largest_energy << '.' << advice;
         throw core::NumericalError(text.str());
       }
-  }
-
-  bool
-  Driver::compares_estimates(const Cycle &cycle) const
-  {
-    return !is_same_problem(change_of_problem(accepted->record, cycle.record), current.swept);
-  }
-
-  bool
-  Driver::is_rejected_by_energy(Cycle &cycle)
-  {
-    if (!accepted || !is_tested)
-      return false;
-    const double     change = change_of_problem(accepted->record, cycle.record);
-    const EnergyTest test = compare_energies(accepted->energy, cycle.energy, current.swept, change);
-    if (!test.is_worse())
-      return false;
-    std::ostringstream text;
-    text << "the potential energy is " << cycle.energy.potential << ", above the "
-         << accepted->energy.potential;
-    return reject(cycle, text.str());
-  }
-
-  bool
-  Driver::is_rejected_by_estimate(Cycle &cycle)
-  {
-    const double before = compare::root_of_squares(accepted->indicators);
-    const double after  = compare::root_of_squares(cycle.indicators);
-    log.detail("Cycle " + std::to_string(cycle.record.cycle)
-               + ": the loads or the volume changed with the mesh, so that estimates are "
-                 "compared in place of energies.");
-    if (!is_worse_estimate(before, after))
-      return false;
-    std::ostringstream text;
-    text << "the refinement indicator's estimate is " << after << ", above the " << before;
-    if (!reject(cycle, text.str()))
-      return false;
-    levels.pop_back();
-    return true;
-  }
-
-  bool
-  Driver::reject(Cycle &cycle, const std::string &reason)
-  {
-    std::ostringstream text;
-    text << "Cycle " << cycle.record.cycle << ": with " << cycle.record.tets << " tetrahedra "
-         << reason << " of cycle " << accepted->record.cycle << " with " << accepted->record.tets;
-    if (n_rejected == 2)
-      {
-        // Even where every tetrahedron was cut; then it is not the mesh.
-        log.warning(text.str()
-                    + ", although every tetrahedron of that was cut into eight: the loads may "
-                      "not be resolved by the mesh. The cycle is kept.");
-        return false;
-      }
-    log.warning(text.str() + ": the solution is worse, and the mesh is rejected.");
-    cycle.record.acceptance = Acceptance::rejected;
-    return true;
   }
 
   void

@@ -3,7 +3,6 @@
 
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/mesh/kept_places.h"
-#include "tetradapt/mesh/mesh_checks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +20,17 @@ namespace tetradapt::compare
       for (unsigned int d = 0; d < 3; ++d)
         extent = std::max(extent, upper[d] - lower[d]);
       return extent;
+    }
+
+    /** Six digits, and 0 for what rounding left of it. */
+    std::string
+    short_text(const Point<3> &point)
+    {
+      std::ostringstream text;
+      for (unsigned int d = 0; d < 3; ++d)
+        text << (d == 0 ? "(" : ", ")
+             << (std::abs(point[d]) < 1e-12 * point.norm() ? 0. : point[d]);
+      return text.str() + ")";
     }
 
     Point<3>
@@ -49,9 +59,9 @@ namespace tetradapt::compare
     text.precision(4);
     text << "within " << radius << " of ";
     if (ends[0] == ends[1])
-      text << mesh::to_string(ends[0]);
+      text << short_text(ends[0]);
     else
-      text << "the line from " << mesh::to_string(ends[0]) << " to " << mesh::to_string(ends[1]);
+      text << "the line from " << short_text(ends[0]) << " to " << short_text(ends[1]);
     return text.str();
   }
 

@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace tetradapt::mesh
 {
@@ -210,15 +209,10 @@ namespace tetradapt::mesh
   MoveReport
   BoundaryProjection::project(TetMesh &mesh) const
   {
-    std::vector<std::pair<unsigned int, KeptPlace *>> points_of_kept;
-    std::map<unsigned int, Point<3>>                  kept; // where these vertices go
-    for (KeptPlace &place : mesh.kept)
+    std::vector<bool> is_kept(mesh.n_points(), false);
+    for (const KeptPlace &place : mesh.kept)
       for (const unsigned int v : vertices_of(mesh, place))
-        {
-          kept[v] = place.is_line() ? mesh.points[v] : place.target;
-          if (!place.is_line())
-            points_of_kept.emplace_back(v, &place);
-        }
+        is_kept[v] = true;
     const auto                on_surface = surfaces_of_patches(mesh, surfaces);
     std::vector<unsigned int> place_of_point(mesh.n_points(), none), points;
     std::vector<Place>        places;
@@ -272,9 +266,9 @@ namespace tetradapt::mesh
         const Place            &place = places[i];
         const Point<3>         &here  = mesh.points[points[i]];
         std::optional<Point<3>> target;
-        if (const auto found = kept.find(points[i]); found != kept.end())
-          target = found->second;
-        else if (with_creases && n_sharp[points[i]] > 0)
+        if (is_kept[points[i]])
+          continue;
+        if (with_creases && n_sharp[points[i]] > 0)
           {
             // Ends and branches of sharp edges are points of the first mesh, and so is where
             // they cross the border of a selection.
@@ -297,8 +291,6 @@ namespace tetradapt::mesh
       }
     MoveReport report = move_points(mesh, moves);
     report.n_held += n_lost;
-    for (auto &[vertex, place] : points_of_kept)
-      place->ends.front() = mesh.points[vertex];
     return report;
   }
 

@@ -123,9 +123,9 @@ namespace tetradapt::mesh
     std::vector<KeptPlace> places;
     const auto             add = [&](const std::string &name, const scene::PlaceParameters &place) {
       if (place.point)
-        places.push_back({name, {*place.point}, *place.point});
+        places.push_back({name, {*place.point}});
       if (place.line)
-        places.push_back({name, {place.line->first, place.line->second}, place.line->first});
+        places.push_back({name, {place.line->first, place.line->second}});
     };
     for (const auto &support : scene.supports)
       add("Supports/" + support.name, support.place);
@@ -155,7 +155,6 @@ namespace tetradapt::mesh
                   "or surface.");
             end = nearest;
           }
-        found.target = found.ends.front();
         std::optional<Point<3>> gap;
         if (found.is_line())
           find_vertices(mesh, found, tolerance, gap);

@@ -78,10 +78,7 @@ namespace tetradapt::mesh
     core::broadcast(mesh.faces, communicator);
     std::vector<Point<3>> kept_points;
     for (const KeptPlace &place : mesh.kept)
-      {
-        kept_points.insert(kept_points.end(), place.ends.begin(), place.ends.end());
-        kept_points.push_back(place.target);
-      }
+      kept_points.insert(kept_points.end(), place.ends.begin(), place.ends.end());
     core::broadcast(kept_points, communicator);
     const std::string names = names_to_text(mesh);
     std::vector<char> text(names.begin(), names.end());
@@ -89,11 +86,8 @@ namespace tetradapt::mesh
     names_from_text(std::string(text.begin(), text.end()), mesh);
     auto next = kept_points.begin();
     for (KeptPlace &place : mesh.kept)
-      {
-        for (Point<3> &end : place.ends)
-          end = *next++;
-        place.target = *next++;
-      }
+      for (Point<3> &end : place.ends)
+        end = *next++;
   }
 
   std::shared_ptr<const TetMesh>

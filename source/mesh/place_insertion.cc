@@ -188,6 +188,11 @@ namespace tetradapt::mesh
           const auto curved = boundary.on_true_surface(p, near);
           if (near.distance > boundary.snap)
             {
+              if (curved && curved->distance <= boundary.snap)
+                throw core::InputError(
+                  place.name + "/Line: " + geometry::to_string(p)
+                  + " lies on the body's true surface (Mesh/Projection), but not on the first "
+                    "mesh's: on curved walls lines must follow edges of the surface.");
               if (!boundary.encloses(p))
                 throw core::InputError(place.name + "/Line: it leaves the body at "
                                        + geometry::to_string(p) + "; the body's nearest point is "
@@ -315,17 +320,17 @@ namespace tetradapt::mesh
     Complex              result
       = with_cut_facets(plc, triangles, geometry::cut_surface(triangles.surface, {}, none, wanted));
     const auto facet_edges = edges_of_facets(result);
-    for (KeptPlace &place : kept)
-      for (Point<3> &end : place.ends)
+    for (std::size_t i = 0; i < kept.size(); ++i)
+      for (std::size_t e = 0; e < kept[i].ends.size(); ++e)
         {
+          Point<3>          &end    = kept[i].ends[e];
+          const Point<3>    &given  = places[i].ends[e];
           const unsigned int number = point_at(end, boundary.snap, result);
           // From the facet to the true surface.
-          if (!place.is_line() && end.distance(place.target) > boundary.snap)
-            result.points[number] = place.target;
+          if (end.distance(given) > boundary.snap)
+            result.points[number] = given;
           end = result.points[number];
         }
-    for (KeptPlace &place : kept)
-      place.target = place.ends.front();
     for (std::size_t i = 0; i < kept.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
         if (kept[i].is_line() && kept[j].is_line())

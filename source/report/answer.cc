@@ -226,7 +226,7 @@ namespace tetradapt::report
     std::string
     singular_places(const adapt::CycleRecord &record)
     {
-      std::string text;
+      std::string names, text;
       for (const adapt::LeftOutRecord &part : record.left_out)
         {
           bool acts = part.is_force;
@@ -237,11 +237,13 @@ namespace tetradapt::report
                   || ("Supports/" + support.name == part.name
                       && support.resultant.force.norm() > force_noise(*record.equilibrium).force);
           if (acts)
-            text += entry(text.empty() ? "energy" : "",
-                          "does not converge at " + part.name
-                            + ": it grows without limit as the mesh is refined, and so do the "
-                              "largest displacement and stress there");
+            names += (names.empty() ? "" : ", ") + part.name;
         }
+      if (!names.empty())
+        text = entry("energy",
+                     "does not converge at " + names
+                       + ": it grows without limit as the mesh is refined, and so do the largest "
+                         "displacement and stress there");
       bool first = true;
       for (const adapt::LeftOutRecord &part : record.left_out)
         if (part.radius > 0.)

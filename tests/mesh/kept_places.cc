@@ -27,13 +27,13 @@ using namespace tetradapt::mesh;
 KeptPlace
 point(const std::string &name, const Point<3> &p)
 {
-  return {name, {p}, p};
+  return {name, {p}};
 }
 
 KeptPlace
 line(const std::string &name, const Point<3> &a, const Point<3> &b)
 {
-  return {name, {a, b}, a};
+  return {name, {a, b}};
 }
 
 /** Whether all places have vertices where they are wanted, and lines edges all the way. */

@@ -66,24 +66,26 @@ namespace
     support.displacement       = {{"sin(y)", "if(x > 0, 1, 2)", "0"}};
     scene.supports.push_back(
       {"other", {{}, {"y-max"}, ""}, {{false, true, true}}, {{"0", "0", "z"}}});
-    scene.loads[0].type                   = LoadType::gravity;
-    scene.loads[0].selector               = {{1}, {"a b"}, ""};
-    material.density                      = 1000;
-    scene.loads[0].value                  = {{"0", "-9.81*y", "x"}};
-    scene.solver                          = {SolverParameters::Type::cg, 1e-12, 7, 8};
-    scene.reference.type                  = ReferenceParameters::Type::fine_mesh;
-    scene.reference.route                 = ReferenceParameters::MeshRoute::bricks;
-    scene.reference.cells                 = {{9, 8, 7}};
-    scene.reference.cache                 = false;
-    scene.exact_solution.displacement     = {{"x", "y", "z"}};
-    scene.exact_solution.gradient         = {{"1", "0", "0", "0", "1", "0", "0", "0", "1"}};
-    scene.exact_solution.strain_energy    = 4.00414;
-    scene.adaptivity.strategy             = AdaptivityParameters::Strategy::mesh_list;
-    scene.adaptivity.refinement_indicator = AdaptivityParameters::RefinementIndicator::ren;
-    scene.adaptivity.marking              = AdaptivityParameters::Marking::doerfler;
-    scene.adaptivity.size_control         = AdaptivityParameters::SizeControl::volume_constraints;
-    scene.adaptivity.max_tets             = 123456789012;
-    scene.output                          = {"some/folder", false, false, false};
+    scene.supports[1].place.line            = {{-1. / 3., 0., 1e-300}, {1., 2., 3.}};
+    scene.supports[1].place.excluded_radius = .1;
+    scene.loads[0].type                     = LoadType::gravity;
+    scene.loads[0].selector                 = {{1}, {"a b"}, ""};
+    material.density                        = 1000;
+    scene.loads[0].value                    = {{"0", "-9.81*y", "x"}};
+    scene.solver                            = {SolverParameters::Type::cg, 1e-12, 7, 8};
+    scene.reference.type                    = ReferenceParameters::Type::fine_mesh;
+    scene.reference.route                   = ReferenceParameters::MeshRoute::bricks;
+    scene.reference.cells                   = {{9, 8, 7}};
+    scene.reference.cache                   = false;
+    scene.exact_solution.displacement       = {{"x", "y", "z"}};
+    scene.exact_solution.gradient           = {{"1", "0", "0", "0", "1", "0", "0", "0", "1"}};
+    scene.exact_solution.strain_energy      = 4.00414;
+    scene.adaptivity.strategy               = AdaptivityParameters::Strategy::mesh_list;
+    scene.adaptivity.refinement_indicator   = AdaptivityParameters::RefinementIndicator::ren;
+    scene.adaptivity.marking                = AdaptivityParameters::Marking::doerfler;
+    scene.adaptivity.size_control           = AdaptivityParameters::SizeControl::volume_constraints;
+    scene.adaptivity.max_tets               = 123456789012;
+    scene.output                            = {"some/folder", false, false, false};
     write("changed.prm", effective_parameters(scene));
   }
 } // namespace

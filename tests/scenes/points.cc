@@ -215,6 +215,34 @@ namespace
     else
       std::cout << "  spr is near it: NO, " << ratio << std::endl;
     check("  answer", contains(result.out, "errors leave out"));
+    check("  energies are not compared",
+          contains(read("far/log.txt"),
+                   "without comparing their energy: the energy of Loads/finger grows"));
+  }
+
+  /** What is said of places that are probably not meant so. */
+  void
+  warnings()
+  {
+    std::cout << "warnings" << std::endl;
+    run_scene(
+      "warned",
+      scene_text(box,
+                 block("base", {"Groups = x-min"})
+                   + block("pin", {"Point = 2, .5, 0", "Excluded radius = 0"}),
+                 block("top", {"Groups = z-max", "Value = 0; 0; -1"})
+                   + block("lost", {"Type = point force", "Point = 0, .5, .5", "Value = 1; 0; 0"})
+                   + block("deep",
+                           {"Type = point force", "Point = 1, .5, .495", "Value = 0; 0; -1"}),
+                 "subsection Goals\n subsection near\n  set Type = point displacement\n  "
+                 "set Point = 1.05, .5, .5\n end\nend\n"));
+    const std::string log = read("warned/log.txt");
+    check("  a support carries something without a radius",
+          contains(log, "Supports/pin has a reaction of"));
+    check("  a support takes up a force",
+          contains(log, "Loads/lost: all components of this force"));
+    check("  a point just below the surface", contains(log, "lies inside the body, only 0.005"));
+    check("  a goal in a ball", contains(log, "Goals/near/Point: it lies within 0.1 of"));
   }
 
   void
@@ -324,6 +352,7 @@ main()
   three_points();
   hinges();
   convergence();
+  warnings();
   refusals();
   ranks();
 }

@@ -60,8 +60,7 @@ namespace tetradapt::mesh
     std::optional<Point<3>>
     foot(const Patch &patch, const Point<3> &point, double length) const;
 
-    /** Moves the boundary's points to where they belong: points of TetMesh::kept to their targets,
-     * those on kept lines nowhere. */
+    /** Moves the boundary's points to where they belong; those of TetMesh::kept are there. */
     MoveReport
     project(TetMesh &mesh) const;
 

@@ -20,9 +20,9 @@ namespace tetradapt::mesh
    * points and edges of these, others points inside and PiecewiseLinearComplex::segments. Ends
    * as near as 1e-6 of the body's largest extent to a point or an edge are moved there.
    *
-   * @param projection of the boundary, which has assigned the patches; null for none. A point
-   *        on the true surface is put on the nearest facet, and its KeptPlace::target says where
-   *        the vertex is to go. A line must lie on facet and surface both.
+   * @param projection of the boundary, which has assigned the patches; null for none. Near a point
+   *        on the true surface the nearest facet is cut, and its new corner put at the point. A
+   *        line must lie on facets and surface both.
    * Warns of points inside that are nearer to the surface than 1e-2 of the body's largest
    * extent: they may have been meant to lie on it.
    *

@@ -35,9 +35,6 @@ namespace tetradapt::mesh
   {
     std::string           name; ///< of the support or load: "Supports/hinge"
     std::vector<Point<3>> ends; ///< one: a vertex; two: the vertices at the ends of a line
-    /** Where a point is to be, on the curved surface that the boundary is projected onto:
-     * its vertex is moved there. That of ends otherwise. */
-    Point<3> target;
 
     bool
     is_line() const

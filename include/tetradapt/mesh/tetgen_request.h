@@ -15,7 +15,8 @@ namespace tetradapt::mesh
 
   /**
    * TetGen's input for filling a closed boundary. Patch p becomes marker p + 1,
-   * because zero means "no marker". The switches are left to the caller.
+   * because zero means "no marker". Segments are passed as edges, which TetGen keeps in
+   * facets and inside. The switches are left to the caller.
    */
   TetgenRequest
   make_request(const PiecewiseLinearComplex &plc, const Sizing &sizing);
@@ -23,8 +24,8 @@ namespace tetradapt::mesh
   /**
    * TetGen's input for refining a finalized mesh. Faces between two regions are
    * passed with the marker one past the last patch's. All edges where faces meet
-   * at an angle, where patches or where regions meet are passed as segments:
-   * left alone, TetGen takes faces within 0.1 degree for one plane, and the
+   * at an angle, where patches or where regions meet, and those of kept lines, are passed as
+   * segments: left alone, TetGen takes faces within 0.1 degree for one plane, and the
    * volume drifts.
    *
    * @param[out] n_inserted number of points that TetGen takes for ones that an
