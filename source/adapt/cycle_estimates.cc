@@ -82,8 +82,8 @@ namespace tetradapt::adapt
     }
 
     /** Adds to the refinement indicator what it does not see of the loads. An indicator that is
-     * no energy norm is scaled as if its norm were the estimated energy error, or a tenth of the
-     * solution's norm where there is none. */
+     * no energy norm is scaled as if its norm were the energy error against the reference, or a
+     * tenth of the solution's norm without a reference; it stays as it is where it is zero. */
     void
     add_oscillations(const ErrorSources              &sources,
                      const SolvedCycle               &cycle,

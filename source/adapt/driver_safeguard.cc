@@ -8,6 +8,33 @@
 
 namespace tetradapt::adapt
 {
+  namespace
+  {
+    /** A rejected cycle has no errors, whatever told that it is worse. */
+    void
+    leave_out_errors(CycleRecord &record)
+    {
+      for (auto CycleRecord::*figure : {&CycleRecord::mean_ren,
+                                        &CycleRecord::max_ren,
+                                        &CycleRecord::l2_error,
+                                        &CycleRecord::relative_l2_error,
+                                        &CycleRecord::h1_error,
+                                        &CycleRecord::relative_h1_error,
+                                        &CycleRecord::energy_error,
+                                        &CycleRecord::relative_energy_error,
+                                        &CycleRecord::estimate,
+                                        &CycleRecord::relative_estimate,
+                                        &CycleRecord::reference_error_estimate,
+                                        &CycleRecord::effectivity})
+        (record.*figure).reset();
+      record.error_source              = ErrorSource::none;
+      record.displacement_error_source = ErrorSource::none;
+      record.estimate_source.clear();
+      record.estimates.clear();
+      record.goals.clear();
+    }
+  } // namespace
+
   bool
   Driver::compares_estimates(const Cycle &cycle) const
   {
@@ -44,6 +71,8 @@ namespace tetradapt::adapt
     if (!reject(cycle, text.str()))
       return false;
     levels.pop_back();
+    leave_out_errors(cycle.record);
+    cycle.indicators.clear();
     return true;
   }
 

@@ -29,16 +29,33 @@ namespace tetradapt::adapt
       return text.str();
     }
 
-    /** Relative change of a load's force. */
+    /** Relative change of a load: of its force, its moment over @p lever and int |density|. */
     double
-    change(const mechanics::LoadTotal &before, const mechanics::LoadTotal &after)
+    change(const mechanics::LoadTotal &before,
+           const mechanics::LoadTotal &after,
+           const double                lever)
     {
       // Nodal forces have no density: their magnitude is that of their sum.
-      const double scale = std::max({before.magnitude,
-                                     after.magnitude,
-                                     before.resultant.force.norm(),
-                                     after.resultant.force.norm()});
-      return relative((after.resultant.force - before.resultant.force).norm(), scale);
+      const double scale   = std::max({before.magnitude,
+                                       after.magnitude,
+                                       before.resultant.force.norm(),
+                                       after.resultant.force.norm()});
+      double       largest = std::max((after.resultant.force - before.resultant.force).norm(),
+                                std::abs(after.magnitude - before.magnitude));
+      if (lever > 0.)
+        largest
+          = std::max(largest, (after.resultant.moment - before.resultant.moment).norm() / lever);
+      return relative(largest, scale);
+    }
+
+    /** Of the body; the same on every rank. */
+    double
+    volume_of(const CycleRecord &record)
+    {
+      double sum = 0.;
+      for (const auto &region : record.regions)
+        sum += region.volume;
+      return sum;
     }
   } // namespace
 
@@ -55,7 +72,7 @@ namespace tetradapt::adapt
         load.name  = scene.loads[i].name;
         load.total = totals[i];
         if (i < first.size())
-          load.drift = change(first[i].total, totals[i]);
+          load.drift = change(first[i].total, totals[i], 0.);
         record.loads.push_back(load);
       }
   }
@@ -115,9 +132,12 @@ namespace tetradapt::adapt
   double
   change_of_problem(const CycleRecord &before, const CycleRecord &after)
   {
-    double largest = relative(std::abs(after.mesh.volume - before.mesh.volume), before.mesh.volume);
+    const double volume = volume_of(before);
+    // About the centre of the box, moments are at most this times the forces.
+    const double lever   = before.equilibrium ? before.equilibrium->lever : 0.;
+    double       largest = relative(std::abs(volume_of(after) - volume), volume);
     for (std::size_t i = 0; i < std::min(before.loads.size(), after.loads.size()); ++i)
-      largest = std::max(largest, change(before.loads[i].total, after.loads[i].total));
+      largest = std::max(largest, change(before.loads[i].total, after.loads[i].total, lever));
     return largest;
   }
 
@@ -125,7 +145,7 @@ namespace tetradapt::adapt
   bound_is_guaranteed(const scene::Scene &scene, const CycleRecord &record)
   {
     for (const LoadRecord &load : record.loads)
-      if (!load.total.is_converged())
+      if (!load.total.is_converged() || !load.total.remark.empty())
         return false;
     for (const auto &support : scene.supports)
       if (!core::VectorExpression(support.displacement,

@@ -26,7 +26,7 @@ namespace tetradapt::adapt
           if (part.contains(goal.point))
             log.warning(scene.with_place(
               "Goals/" + goal.name + "/Point: it lies " + part.text() + ", where " + part.name
-              + " acts and the solution need not converge: neither need the goal's value. Move it "
+              + " acts and the solution, and the goal's value, may not converge there. Move it "
                 "away."));
     for (const auto &warning : estimate::check_goal_points(scene, mesh))
       log.warning(scene.with_place(warning));

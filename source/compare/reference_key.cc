@@ -22,7 +22,7 @@ namespace tetradapt::compare
   namespace
   {
     /** To be raised when the same scene gives another reference than before. */
-    constexpr unsigned int method_version = 2;
+    constexpr unsigned int method_version = 3;
 
     /** Names and values, one a line, with all digits; strings with their length. */
     class CanonicalText
@@ -114,6 +114,7 @@ namespace tetradapt::compare
           describe(text, load.selector);
           describe(text, load.place);
           text.list("value", load.value);
+          text("smallest feature", load.smallest_feature);
           if (load.type == scene::LoadType::total_force)
             {
               text.list("moment", load.total.moment);

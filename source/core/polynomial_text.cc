@@ -23,14 +23,21 @@ namespace tetradapt::core
       return name == "pi" || name == "e" || name == "_pi" || name == "_e";
     }
 
-    bool
-    is_exponent(const ExpressionToken &token)
+    /** A whole number from 0 to 8, or -1. */
+    int
+    exponent(const ExpressionToken &token)
     {
       if (token.kind != ExpressionToken::Kind::number)
-        return false;
+        return -1;
       const double value = std::strtod(token.text.c_str(), nullptr);
-      return value >= 0. && value <= 8. && value == static_cast<int>(value);
+      return value >= 0. && value <= 8. && value == static_cast<int>(value)
+               ? static_cast<int>(value)
+               : -1;
     }
+
+    /** A bound of the degree of what is_polynomial() accepts is the number of variables, each
+     * with its exponent. */
+    constexpr int largest_degree = 16;
   } // namespace
 
   bool
@@ -38,6 +45,7 @@ namespace tetradapt::core
   {
     using Kind        = ExpressionToken::Kind;
     const auto tokens = expression_tokens(text);
+    int        degree = 0;
     for (std::size_t i = 0; i < tokens.size(); ++i)
       {
         const ExpressionToken &token = tokens[i];
@@ -51,16 +59,24 @@ namespace tetradapt::core
           case Kind::name:
             if (!is_variable(token.text) && !is_constant_name(token.text))
               return false;
+            degree += is_variable(token.text);
             break;
           case Kind::symbol:
             if (token.is("+") || token.is("-") || token.is("*"))
               break;
             if (last)
               return false;
-            // Powers are taken from the right, so that a second one would make a tower.
-            if (token.is("^") && is_exponent(tokens[i + 1])
+            // Only of a variable or a number: powers of brackets may nest to any degree. They are
+            // taken from the right, so that a second one would make a tower.
+            if (token.is("^") && i > 0
+                && (tokens[i - 1].kind == Kind::name || tokens[i - 1].kind == Kind::number)
+                && exponent(tokens[i + 1]) >= 0
                 && !(i + 2 < tokens.size() && tokens[i + 2].is("^")))
-              break;
+              {
+                if (is_variable(tokens[i - 1].text))
+                  degree += exponent(tokens[i + 1]) - 1;
+                break;
+              }
             if (token.is("/")
                 && (tokens[i + 1].kind == Kind::number
                     || (tokens[i + 1].kind == Kind::name && is_constant_name(tokens[i + 1].text)))
@@ -73,6 +89,6 @@ namespace tetradapt::core
             return false;
           }
       }
-    return !tokens.empty();
+    return !tokens.empty() && degree <= largest_degree;
   }
 } // namespace tetradapt::core

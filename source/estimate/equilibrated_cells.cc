@@ -87,6 +87,8 @@ namespace tetradapt::estimate
     state.volume              = mesh::cell_volume(mesh, cell);
     state.gradients           = mesh::barycentric_gradients(mesh, cell);
     state.thermal_oscillation = 0.;
+    state.stress.fill(SymmetricTensor<2, 3>());
+    state.has_bubbles = false;
     if (region.thermal && !materials.is_mixed())
       add_thermal_stress(cell, region, state);
     compute_force(cell, region, state);

@@ -35,6 +35,16 @@ namespace tetradapt::mechanics
       return x;
     }
 
+    template <unsigned int n>
+    mesh::PartCorners<n>
+    whole_element_corners()
+    {
+      mesh::PartCorners<n> corners{};
+      for (unsigned int i = 0; i < n; ++i)
+        corners[i][i] = 1.;
+      return corners;
+    }
+
     /** Rounding is no difference. */
     constexpr double rounding = 1e-13;
 
@@ -57,7 +67,8 @@ namespace tetradapt::mechanics
     const SamplingRules<n>        &rules;
     Samples                       &samples;
     Tensor<1, 3>                   change{}; ///< of integrals by the last cut that was allowed
-    double                         rough   = 0.;
+    double                         rough           = 0.;
+    double                         squared_changes = 0.;
     bool                           unknown = false; ///< parts without a coarser one to compare
 
     Tensor<1, 3>
@@ -302,7 +313,10 @@ namespace tetradapt::mechanics
     if (is_small)
       {
         look_at(work, part);
-        if (fits(work, part) && (part.size <= rules.without_rim || rim_fits(work, part)))
+        if (fits(work, part)
+            && ((n == 4 && look == std::numeric_limits<double>::infinity()
+                 && part.size <= rules.without_rim)
+                || rim_fits(work, part)))
           {
             keep(work, part, fraction);
             return fraction * part.mean;
@@ -331,7 +345,11 @@ namespace tetradapt::mechanics
     });
     // Larger parts were not looked at: their children count with all that is rough in them.
     if (limited_below && is_small)
-      work.change += sum - fraction * part.mean;
+      {
+        const Tensor<1, 3> change = sum - fraction * part.mean;
+        work.change += change;
+        work.squared_changes += change.norm_square();
+      }
     else if (limited_below)
       work.unknown = true;
     return sum;
@@ -345,27 +363,27 @@ namespace tetradapt::mechanics
                             Samples                       &samples) const
   {
     samples.clear();
-    Work    work{corners, density, rules, samples};
-    Corners whole{};
-    for (unsigned int i = 0; i < n; ++i)
-      whole[i][i] = 1.;
+    Work work{corners, density, rules, samples};
     bool was_limited = false;
-    refine(work, whole, 1., was_limited);
-    // Errors of parts have either sign: what the last cut changed tells more than their sum.
-    return was_limited || work.unknown ? 0.25 * work.rough
-                                       : std::min(work.change.norm(), work.rough);
+    refine(work, whole_element_corners<n>(), 1., was_limited);
+    // Errors of parts partly cancel: what the last cut changed tells more than their sum.
+    const double changed = work.change.norm() + 2. * std::sqrt(work.squared_changes);
+    return was_limited || work.unknown ? 0.25 * work.rough : std::min(changed, work.rough);
   }
 
   template <unsigned int n>
-  void
+  double
   DensitySampler<n>::sample_basic(const std::array<Point<3>, n> &corners,
                                   const Function                &density,
                                   Samples                       &samples) const
   {
     samples.clear();
-    for (unsigned int q = 0; q < n_points; ++q)
-      samples.push_back(
-        {rule_points[q], rule_weights[q], density(position<n>(corners, rule_points[q]))});
+    const SamplingRules<n> rules;
+    Work                   work{corners, density, rules, samples};
+    Part                   part = part_at(work, whole_element_corners<n>());
+    look_at(work, part);
+    keep(work, part, 1.);
+    return expected_error(part.distance, part.largest);
   }
 
   template <unsigned int n>

@@ -19,7 +19,8 @@ namespace tetradapt::mechanics
                            const Point<3>                                      &lower,
                            const Point<3>                                      &upper,
                            const double                                         step,
-                           const std::size_t                                    most_nodes)
+                           const std::size_t                                    most_nodes,
+                           const ForEachCell                                   &cells)
     : used_step(step)
   {
     const auto fits = [&]() {
@@ -38,6 +39,7 @@ namespace tetradapt::mechanics
     const std::size_t         n_nodes = std::size_t(n[0]) * n[1] * n[2];
     std::vector<Tensor<1, 3>> values(n_nodes);
     std::vector<char>         unknown(n_nodes, 0);
+    const std::vector<char>   inside  = nodes_in(cells);
     double                    largest = 0.;
     std::size_t               known   = 0;
     for (unsigned int k = 0; k < n[2]; ++k)
@@ -50,7 +52,9 @@ namespace tetradapt::mechanics
                 const Tensor<1, 3> value = function(x);
                 const double       size  = value.norm();
                 values[node(i, j, k)]    = value;
-                largest                  = std::max(largest, size);
+                if (inside[node(i, j, k)] == 0)
+                  continue;
+                largest = std::max(largest, size);
                 mean_size += size;
                 ++known;
               }
@@ -102,6 +106,52 @@ namespace tetradapt::mechanics
     fine   = MarkCounts(n, fine_marks);
     medium = MarkCounts(n, medium_marks);
     coarse = MarkCounts(n, coarse_marks);
+  }
+
+  std::vector<char>
+  FeatureGrid::nodes_in(const ForEachCell &cells) const
+  {
+    std::vector<char> inside(std::size_t(n[0]) * n[1] * n[2], 0);
+    bool              any = false;
+    cells([&](const std::array<Point<3>, 4> &corners) {
+      unsigned int first[3], last[3];
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          const auto [low, high]
+            = std::minmax({corners[0][d], corners[1][d], corners[2][d], corners[3][d]});
+          first[d] = static_cast<unsigned int>(
+            std::clamp(std::ceil((low - origin[d]) / used_step), 0., n[d] - 1.));
+          last[d] = static_cast<unsigned int>(
+            std::clamp(std::floor((high - origin[d]) / used_step), 0., n[d] - 1.));
+        }
+      // Outward normals, for the sides of the faces.
+      constexpr unsigned int faces[4][3] = {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}};
+      Tensor<1, 3>           normals[4];
+      for (unsigned int f = 0; f < 4; ++f)
+        {
+          const Point<3> &a = corners[faces[f][0]];
+          normals[f]        = cross_product_3d(corners[faces[f][1]] - a, corners[faces[f][2]] - a);
+          if (normals[f] * (corners[f] - a) > 0.)
+            normals[f] *= -1.;
+        }
+      for (unsigned int k = first[2]; k <= last[2]; ++k)
+        for (unsigned int j = first[1]; j <= last[1]; ++j)
+          for (unsigned int i = first[0]; i <= last[0]; ++i)
+            {
+              const Point<3> x = origin + Point<3>(i * used_step, j * used_step, k * used_step);
+              bool           within = true;
+              for (unsigned int f = 0; f < 4; ++f)
+                within = within && normals[f] * (x - corners[faces[f][0]]) <= 0.;
+              if (within)
+                {
+                  inside[node(i, j, k)] = 1;
+                  any                   = true;
+                }
+            }
+    });
+    if (!any)
+      std::fill(inside.begin(), inside.end(), 1);
+    return inside;
   }
 
   double

@@ -178,6 +178,7 @@ namespace tetradapt::mechanics
       void
       add_volume_load(const VolumeDensity &density, LoadTotal &total)
       {
+        density.look_at(mesh); // on every rank, for the remark
         VolumeDensity::Samples samples;
         std::array<double, 10> N{};
         for (const unsigned int cell : space.touching_cells())
@@ -216,7 +217,8 @@ namespace tetradapt::mechanics
       void
       add_thermal_load(Forces &all, LoadTotal &total) const
       {
-        const VolumeDensity         &density = materials.thermal_density();
+        const VolumeDensity &density = materials.thermal_density();
+        density.look_at(mesh);
         VolumeDensity::Samples       samples;
         std::array<Tensor<1, 3>, 10> gradients;
         for (const unsigned int cell : space.touching_cells())

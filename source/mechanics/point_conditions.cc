@@ -77,11 +77,12 @@ namespace tetradapt::mechanics
               n_held += prescribed.is_fixed(vertex, c) ? 1 : 0;
             }
         if (n_held > 0)
-          warnings.push_back(
-            name + ": " + (n_held == n ? "all" : "some") + " components of this force act on the "
-            + "vertex " + mesh::to_string(mesh.points[vertex])
-            + ", where supports hold them: they deform nothing. Move the point, or free these "
-              "components.");
+          warnings.push_back(name + ": " + (n_held == n ? "all" : "some")
+                             + " components of this force act on the " + "vertex "
+                             + mesh::to_string(mesh.points[vertex])
+                             + ", where supports hold them: these components deform nothing. Move "
+                               "the point, or free these "
+                               "components.");
       }
     return warnings;
   }

@@ -154,15 +154,22 @@ namespace tetradapt::mechanics
   void
   SurfaceLoads::look_at(const Load &load, const unsigned int number) const
   {
-    const std::vector<unsigned int> faces      = faces_of(number);
-    double                          total_area = 0.;
+    const std::vector<unsigned int> faces = faces_of(number);
+    // A face is looked at with the same number of points along all edges, so that a sliver
+    // takes as many as a square on its longest one.
+    double total_area = 0., squares = 0.;
     for (const unsigned int f : faces)
-      total_area += mesh::face_area_vector(mesh, mesh.faces[f]).norm();
-    const auto box = mesh::bounding_box(mesh);
-    load.wanted    = load.smallest_feature > 0. ? load.smallest_feature
-                                                : default_spacing * box.first.distance(box.second);
-    // Two parts and half a point of a lattice, twice, for each square of that spacing.
-    load.spacing = std::max(load.wanted, std::sqrt(3. * total_area / most_evaluations));
+      {
+        const auto x = corners_of(f);
+        total_area += mesh::face_area_vector(mesh, mesh.faces[f]).norm();
+        squares += std::max(
+          {x[0].distance_square(x[1]), x[1].distance_square(x[2]), x[2].distance_square(x[0])});
+      }
+    const auto   box      = mesh::bounding_box(mesh);
+    const double standard = default_spacing * box.first.distance(box.second);
+    load.wanted = load.smallest_feature > 0. ? std::min(load.smallest_feature, standard) : standard;
+    // One part and half a point of a lattice, twice, for each square of that spacing.
+    load.spacing = std::max(load.wanted, std::sqrt(2. * squares / most_evaluations));
 
     // How large the load is: from the centroids of parts as small as the spacing.
     double sum = 0.;
@@ -258,13 +265,14 @@ namespace tetradapt::mechanics
     const Tensor<1, 3> normal = area / size;
     const auto density = [&](const Point<3> &x) { return traction(number, face, x, normal); };
     const auto corners = corners_of(face);
-    if (total != nullptr || (load.uses_normal && load.is_polynomial))
+    if (total != nullptr)
       {
-        // A total force is linear. The normal varies like the surface: the basic rule does, as
-        // for its shape.
-        sampler.sample_basic(corners, density, samples);
+        sampler.sample_basic(corners, density, samples); // it is linear
         return 0.;
       }
+    // The normal of a projected surface varies little in a face, and takes long to find.
+    if (load.uses_normal && load.is_polynomial && surface().is_projected(face))
+      return sampler.sample_basic(corners, density, samples);
     return sample_carefully(load, number, corners, density, samples);
   }
 

@@ -26,14 +26,14 @@ namespace tetradapt::mechanics
     if (n < 3)
       return; // parts are small enough
     const unsigned int        row = n + 1;
-    std::vector<Tensor<1, 3>> values(row * row);
+    std::vector<Tensor<1, 3>> values(std::size_t(row) * row);
     constexpr double          inwards = 1e-6;
     for (unsigned int j = 0; j <= n; ++j)
       for (unsigned int i = 0; i + j <= n; ++i)
         {
           const double s = inwards / 3. + (1. - inwards) * i / n,
                        t = inwards / 3. + (1. - inwards) * j / n;
-          values[j * row + i]
+          values[std::size_t(j) * row + i]
             = density(corners[0] + s * (corners[1] - corners[0]) + t * (corners[2] - corners[0]));
         }
     std::vector<char> marks(values.size(), 0), medium_marks(values.size(), 0),
@@ -62,11 +62,11 @@ namespace tetradapt::mechanics
         for (const auto &d : directions)
           {
             if (differs(i, j, d[0], d[1], levels.fine))
-              marks[j * row + i] = 1;
+              marks[std::size_t(j) * row + i] = 1;
             if (differs(i, j, d[0], d[1], levels.medium))
-              medium_marks[j * row + i] = 1;
+              medium_marks[std::size_t(j) * row + i] = 1;
             if (differs(i, j, stride * d[0], stride * d[1], levels.coarse))
-              coarse_marks[j * row + i] = 1;
+              coarse_marks[std::size_t(j) * row + i] = 1;
           }
     fine   = MarkCounts({{row, row, 1}}, marks);
     medium = MarkCounts({{row, row, 1}}, medium_marks);

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <limits>
 #include <sstream>
+#include <stdexcept>
 
 namespace tetradapt::mechanics
 {
@@ -16,6 +17,9 @@ namespace tetradapt::mechanics
     constexpr double default_spacing = 0.01; ///< of the body's diagonal
     /** Parts are not made smaller than this part of the grid's step. */
     constexpr double finest = 1. / 8.;
+    /** Of the body's diagonal: steps that tell how large a polynomial is, and its smallest parts.
+     */
+    constexpr double few_points = 0.05, finest_of_polynomials = 0.02;
   } // namespace
 
   struct VolumeDensity::Term
@@ -37,15 +41,15 @@ namespace tetradapt::mechanics
     core::VectorExpression       expression;
     bool                         constant, polynomial;
     Tensor<1, 3>                 constant_value;
-    double                       spacing; ///< wanted
+    double                       spacing;           ///< wanted
+    double                       longer_parts = 1.; ///< than the grid says
     std::unique_ptr<FeatureGrid> grid;
   };
 
   VolumeDensity::VolumeDensity(const std::pair<Point<3>, Point<3>> &body) : body(body)
   {
   }
-  VolumeDensity::VolumeDensity(VolumeDensity &&) noexcept = default;
-  VolumeDensity::~VolumeDensity()                         = default;
+  VolumeDensity::~VolumeDensity() = default;
 
   void
   VolumeDensity::add_term(const std::array<std::string, 3> &texts,
@@ -58,12 +62,13 @@ namespace tetradapt::mechanics
     std::copy_if(factors.begin(), factors.end(), std::inserter(acting, acting.end()), [](auto f) {
       return f.second != 0.;
     });
+    const double standard = default_spacing * body.first.distance(body.second);
     terms.push_back(std::make_unique<Term>(texts,
                                            what,
                                            acting,
                                            smallest_feature > 0.
-                                             ? smallest_feature
-                                             : default_spacing * body.first.distance(body.second)));
+                                             ? std::min(smallest_feature, standard)
+                                             : standard));
   }
 
   bool
@@ -96,11 +101,14 @@ namespace tetradapt::mechanics
   }
 
   void
-  VolumeDensity::make_rules() const
+  VolumeDensity::look_at(const mesh::TetMesh &mesh) const
   {
-    rules             = std::make_unique<SamplingRules<4>>();
-    rules->finest     = std::numeric_limits<double>::infinity();
-    bool has_features = false;
+    if (rules != nullptr)
+      return;
+    rules                 = std::make_unique<SamplingRules<4>>();
+    rules->finest         = std::numeric_limits<double>::infinity();
+    const double diagonal = body.first.distance(body.second);
+    bool         has_grid = false;
     for (const auto &term : terms)
       {
         double largest = 0.;
@@ -112,37 +120,46 @@ namespace tetradapt::mechanics
             continue;
           }
         const auto function = [&term](const Point<3> &x) { return term->expression(x); };
+        const auto cells    = [&](const auto &action) {
+          for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
+            if (term->factors.count(mesh.regions[cell]) != 0)
+              {
+                const auto &v = mesh.cells[cell];
+                action(
+                  {{mesh.points[v[0]], mesh.points[v[1]], mesh.points[v[2]], mesh.points[v[3]]}});
+              }
+        };
         if (term->polynomial)
           {
             // A few points tell how large it is, and it has no small features.
-            const double      diagonal = body.first.distance(body.second);
-            const FeatureGrid few(function, body.first, body.second, 0.25 * diagonal, 1000);
+            const FeatureGrid few(
+              function, body.first, body.second, few_points * diagonal, most_nodes, cells);
             rules->mean += largest * few.mean();
-            rules->finest = std::min(rules->finest, finest * term->spacing);
+            rules->finest = std::min(rules->finest, finest_of_polynomials * diagonal);
             continue;
           }
         term->grid = std::make_unique<FeatureGrid>(
-          function, body.first, body.second, term->spacing, most_nodes);
-        has_features       = true;
+          function, body.first, body.second, term->spacing, most_nodes, cells);
+        has_grid           = true;
         rules->without_rim = std::min(rules->without_rim, term->grid->step());
         rules->mean += largest * term->grid->mean();
         // Six parts a box with 14 points each, if parts are as long as the grid's step.
         const double n     = 84. * term->grid->n_marks();
         const double finer = n > 0. ? std::cbrt(most_evaluations / n) : 1. / finest;
         rules->finest
-          = std::min(rules->finest, term->grid->step() / std::clamp(finer, 0.5, 1. / finest));
+          = std::min(rules->finest, term->grid->step() / std::clamp(finer, 0.1, 1. / finest));
+        // Where it varies fast nearly everywhere parts cannot be as small as they should.
+        term->longer_parts = std::max(1., 0.5 / finer);
       }
-    if (has_features)
-      {
-        rules->part_size
-          = [this](const mesh::PartCorners<4> &, const Point<3> &lower, const Point<3> &upper) {
-              double size = std::numeric_limits<double>::infinity();
-              for (const auto &term : terms)
-                if (term->grid != nullptr)
-                  size = std::min(size, term->grid->part_size(lower, upper));
-              return size;
-            };
-      }
+    if (has_grid)
+      rules->part_size
+        = [this](const mesh::PartCorners<4> &, const Point<3> &lower, const Point<3> &upper) {
+            double size = std::numeric_limits<double>::infinity();
+            for (const auto &term : terms)
+              if (term->grid != nullptr)
+                size = std::min(size, term->longer_parts * term->grid->part_size(lower, upper));
+            return size;
+          };
   }
 
   double
@@ -164,6 +181,7 @@ namespace tetradapt::mechanics
         samples.assign(1, {{{.25, .25, .25, .25}}, 1., value(region, Point<3>())});
         return 0.;
       }
+    look_at(mesh);
     std::array<Point<3>, 4> corners;
     for (unsigned int i = 0; i < 4; ++i)
       corners[i] = mesh.points[mesh.cells[cell][i]];
@@ -182,7 +200,7 @@ namespace tetradapt::mechanics
         return 0.;
       }
     if (rules == nullptr)
-      make_rules();
+      throw std::logic_error("a density is sampled before it has been looked at");
     return sampler.sample(
       corners, [&](const Point<3> &x) { return value(region, x); }, *rules, samples);
   }

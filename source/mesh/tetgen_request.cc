@@ -253,8 +253,12 @@ namespace tetradapt::mesh
           (facet.patch == plc.inner ? plc.patches.size() : facet.patch) + 1);
       }
     request.facet_offsets.push_back(request.facet_vertices.size());
+    // Lines may overlap; TetGen does not look for repetitions.
+    std::set<std::pair<unsigned int, unsigned int>> segments;
     for (const auto &segment : plc.segments)
-      request.edges.insert(request.edges.end(), segment.begin(), segment.end());
+      segments.insert(std::minmax(segment[0], segment[1]));
+    for (const auto &segment : segments)
+      request.edges.insert(request.edges.end(), {segment.first, segment.second});
     for (const auto &region : plc.regions)
       request.regions.insert(request.regions.end(),
                              {region.seed[0],

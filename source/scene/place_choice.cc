@@ -24,9 +24,8 @@ namespace tetradapt::scene
         {
         case ErrorEstimator::equilibrated:
           return "equilibrated is a bound of the whole error, and with " + name
-                 + ", which acts on single vertices, that is infinite or has stresses in no "
-                   "balance "
-                   "with the tractions on faces."
+                 + ", which acts on single vertices, that is infinite, or the stresses do not "
+                   "balance the tractions on faces."
                  + use;
         case ErrorEstimator::goal:
           return "goal needs the solution that the goal's weights cause, which is singular at "

@@ -94,10 +94,13 @@ namespace tetradapt::scene
           refuse(load.rotation.axis_point != dealii::Point<3>(), "Axis point", cure);
           refuse(load.rotation.angular_velocity != 0., "Angular velocity", cure);
         }
-      if (load.type == LoadType::total_force || load.type == LoadType::rotation)
-        refuse(load.smallest_feature != 0.,
-               "Smallest feature",
-               "It is for loads whose Value is an expression.");
+      if (load.type == LoadType::total_force || load.type == LoadType::rotation
+          || load.type == LoadType::nodal_force || load.type == LoadType::point_force)
+        refuse(
+          load.smallest_feature != 0.,
+          "Smallest feature",
+          "It is for loads whose Value is integrated: traction, pressure, body force, gravity, "
+          "temperature.");
     }
   } // namespace
 

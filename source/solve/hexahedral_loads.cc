@@ -355,6 +355,8 @@ namespace tetradapt::solve
     using mechanics::SymmetricTensor;
     Vector                        forces(space.layout);
     const mechanics::SurfaceLoads surface_loads(scene, mesh);
+    for (const auto &force : materials.body_forces())
+      force.second->look_at(mesh);
     for (unsigned int number = 0; number < scene.loads.size(); ++number)
       switch (scene.loads[number].type)
         {
@@ -380,6 +382,8 @@ namespace tetradapt::solve
         case scene::LoadType::temperature: // all of them together below
           break;
         }
+    if (materials.has_thermal_strain())
+      materials.thermal_density().look_at(mesh);
     if (materials.has_thermal_strain())
       add_volume_load(
         materials.thermal_density(),

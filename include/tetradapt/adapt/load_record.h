@@ -30,7 +30,8 @@ namespace tetradapt::adapt
 
   /**
    * How much the problem of one cycle differs from that of another: the largest change of a
-   * load's force, relative to int |density|, or of the volume, relative to it.
+   * load (force, moment over half the body's size, int |density|), relative to int |density|, or of
+   * the volume, relative to it. The same on every rank.
    */
   double
   change_of_problem(const CycleRecord &before, const CycleRecord &after);

@@ -33,9 +33,11 @@ namespace tetradapt::mechanics
     /** Mean of |density| over all that it acts on. */
     double mean = 0.;
     /** The accuracy of a part's mean density, relative to the mean of |density| in it or, where
-     * that is larger, over all. Errors of parts have either sign. */
+     * that is larger, over all. Errors of different parts partly cancel. */
     double tolerance = n == 3 ? 3e-8 : 1e-6;
-    /** Parts that are longer than this are also looked at along their rim. */
+    /** Cells only: where part_size is infinite, parts that are longer than this are also looked at
+     * along their rim, shorter ones are not. Faces always are: seven points leave a polynomial of
+     * six coefficients too little to miss. */
     double without_rim = std::numeric_limits<double>::infinity();
     /** How long the edges of a part may be for nothing to be missed, given its corners, in
      * barycentric coordinates, and the box around it; empty: as long as they are. */
@@ -77,8 +79,9 @@ namespace tetradapt::mechanics
            const SamplingRules<n>        &rules,
            Samples                       &samples) const;
 
-    /** Replaces @p samples by the basic rule, for functions that need no more. */
-    void
+    /** Replaces @p samples by the basic rule, for functions that need no more. @return as
+     * sample(). */
+    double
     sample_basic(const std::array<Point<3>, n> &corners,
                  const Function                &density,
                  Samples                       &samples) const;

@@ -22,15 +22,21 @@ namespace tetradapt::mechanics
   class FeatureGrid
   {
   public:
+    /** Calls an action with the corners of each tetrahedron that the function acts in. */
+    using ForEachCell
+      = std::function<void(const std::function<void(const std::array<Point<3>, 4> &)> &)>;
+
     /** Evaluates @p function at the grid's nodes in the box from @p lower to @p upper, which is
      * widened by a step on all sides. The step is @p step, or as much as @p most_nodes nodes
      * allow. Where the function throws core::InputError (outside of the body it need not have a
-     * value), the grid says that it varies. */
+     * value), the grid says that it varies. @param cells tell which values count for the largest
+     * and the mean. */
     FeatureGrid(const std::function<Tensor<1, 3>(const Point<3> &)> &function,
                 const Point<3>                                      &lower,
                 const Point<3>                                      &upper,
                 double                                               step,
-                std::size_t                                          most_nodes);
+                std::size_t                                          most_nodes,
+                const ForEachCell                                   &cells);
 
     /** The step that is used; larger than the one asked for if that took too many nodes. */
     double
@@ -51,7 +57,7 @@ namespace tetradapt::mechanics
       return fine.n_marks();
     }
 
-    /** Mean of |function| at the nodes. */
+    /** Mean of |function| at the nodes in the cells. */
     double
     mean() const
     {
@@ -59,6 +65,10 @@ namespace tetradapt::mechanics
     }
 
   private:
+    /** Marks the nodes in the cells; all, if there are none. */
+    std::vector<char>
+    nodes_in(const ForEachCell &cells) const;
+
     std::size_t
     node(unsigned int i, unsigned int j, unsigned int k) const
     {

@@ -12,7 +12,7 @@ namespace tetradapt::mechanics
   struct LoadTotal
   {
     Resultant resultant;
-    double    magnitude = 0.; ///< int |density|, a force; zero for temperatures and nodal forces
+    double    magnitude = 0.; ///< int |density|, or of all temperatures int |alpha T|; else 0
     /** What quadrature may have left out of integrals of the density, a force: the sum over
      * faces or cells of what DensitySampler expects there. */
     double remainder = 0.;

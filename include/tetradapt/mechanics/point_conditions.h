@@ -20,8 +20,8 @@ namespace tetradapt::mechanics
                    const mesh::TetMesh            &mesh,
                    const mesh::EdgeTable          *edges);
 
-  /** What to tell the user about point forces that act on vertices which supports hold in all
-   * components that the force has: they deform nothing.
+  /** What to tell the user about point forces that act on vertices which supports hold in a
+   * component that the force has: these components deform nothing.
    * @throws core::InputError as prescribe() does. */
   std::vector<std::string>
   held_point_force_warnings(const scene::Scene &scene, const mesh::TetMesh &mesh);

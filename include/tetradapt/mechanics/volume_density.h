@@ -29,13 +29,16 @@ namespace tetradapt::mechanics
 
     /** @param body the box around the body, for the grids. */
     explicit VolumeDensity(const std::pair<Point<3>, Point<3>> &body);
-    VolumeDensity(VolumeDensity &&) noexcept;
+    VolumeDensity(const VolumeDensity &) = delete;
+    VolumeDensity &
+    operator=(const VolumeDensity &)
+      = delete;
     ~VolumeDensity();
 
     /**
      * @param texts three expressions; @param what names the place in messages.
      * @param factors per region; the term does not act in others.
-     * @param smallest_feature the spacing of the grid; 0: 1/100 of the box's diagonal.
+     * @param smallest_feature the spacing of the grid; 0, and at most: 1/100 of the box's diagonal.
      * @throws core::InputError if an expression does not compile.
      */
     void
@@ -64,7 +67,12 @@ namespace tetradapt::mechanics
     double
     sample(const mesh::TetMesh &mesh, unsigned int cell, Samples &samples) const;
 
-    /** The same for any tetrahedron in a region. */
+    /** Looks at the expressions, where they act on @p mesh; once. sample() does it if need be, on
+     * the mesh that it is given. */
+    void
+    look_at(const mesh::TetMesh &mesh) const;
+
+    /** The same for any tetrahedron in a region, after look_at(). */
     double
     sample(int region, const std::array<Point<3>, 4> &corners, Samples &samples) const;
 
@@ -77,16 +85,13 @@ namespace tetradapt::mechanics
     remark() const;
 
     /** Evaluations on one mesh that are spent on parts of cells where an expression varies
-     * fast, about; they set the size of the smallest parts. */
-    static constexpr double most_evaluations = 5e5;
+     * fast, up to a factor of about ten; they set the size of the smallest parts. */
+    static constexpr double most_evaluations = 3e5;
     /** Nodes of a grid. */
     static constexpr std::size_t most_nodes = 4000000;
 
   private:
     struct Term;
-
-    void
-    make_rules() const;
 
     std::pair<Point<3>, Point<3>>             body;
     std::vector<std::unique_ptr<Term>>        terms;
