@@ -143,6 +143,21 @@ namespace
     return sum;
   }
 
+  /** What the scene says; not the moment about a point that it does not give. */
+  Integral
+  as_given(const scene::LoadParameters &load, const Resultant &computed)
+  {
+    Integral sum;
+    sum.resultant       = computed;
+    sum.resultant.force = core::VectorExpression(load.value, "load")(Point<3>());
+    if (load.total.about)
+      sum.resultant.moment
+        = core::VectorExpression(load.total.moment, "load")(Point<3>())
+          + cross_product_3d(Tensor<1, 3>(*load.total.about), sum.resultant.force);
+    sum.size = sum.resultant.force.norm() + sum.resultant.moment.norm();
+    return sum;
+  }
+
   /** Relative difference of a load's resultant to the other quadrature's. */
   double
   difference(const scene::LoadParameters  &load,
@@ -172,8 +187,8 @@ namespace
       case scene::LoadType::temperature:
         break;
       case scene::LoadType::total_force:
-        return (computed.force - core::VectorExpression(load.value, "load")(Point<3>())).norm()
-               / computed.force.norm();
+        exact = as_given(load, computed);
+        break;
       default:
         return 0.; // totals that a scene gives: elsewhere
       }
