@@ -66,8 +66,9 @@ namespace
     support.displacement       = {{"sin(y)", "if(x > 0, 1, 2)", "0"}};
     scene.supports.push_back(
       {"other", {{}, {"y-max"}, ""}, {{false, true, true}}, {{"0", "0", "z"}}});
+    scene.supports[1].selector              = {};
     scene.supports[1].place.line            = {{-1. / 3., 0., 1e-300}, {1., 2., 3.}};
-    scene.supports[1].place.excluded_radius = .1;
+    scene.supports[1].place.excluded_radius = 0.;
     scene.loads[0].type                     = LoadType::gravity;
     scene.loads[0].selector                 = {{1}, {"a b"}, ""};
     material.density                        = 1000;
