@@ -111,6 +111,8 @@ namespace tetradapt::core
       std::array<double, 7> variables{}; ///< x, y, z, t, nx, ny, nz
       mu::Parser            parser;
       bool                  constant = false, normal = false;
+      bool                  is_known = false; ///< a constant's value
+      double                known    = 0.;
 
       Parsed(const std::string &text, const std::string &what, const bool with_normal = false)
         : text(text), what(what)
@@ -155,6 +157,8 @@ namespace tetradapt::core
       double
       evaluate()
       {
+        if (is_known)
+          return known;
         const Point<3> point(variables[0], variables[1], variables[2]);
         const double   t = variables[3];
         double         value;
@@ -182,6 +186,8 @@ namespace tetradapt::core
             message << ". Change it so that it has a value everywhere on the mesh.";
             throw InputError(message.str());
           }
+        is_known = constant;
+        known    = value;
         return value;
       }
     };

@@ -12,7 +12,7 @@ namespace tetradapt::mechanics
   namespace
   {
     /** Widths of 2, 4 and 8 steps. */
-    constexpr FeatureLevels levels{0.25, 0.0625, 0.25};
+    constexpr FeatureLevels levels{0.25, 3., 0.0625, 5., 0.25, 8.};
   } // namespace
 
   FeatureGrid::FeatureGrid(const std::function<Tensor<1, 3>(const Point<3> &)> &function,
@@ -163,14 +163,14 @@ namespace tetradapt::mechanics
         const double from = std::floor((lower[d] - origin[d]) / used_step);
         const double to   = std::ceil((upper[d] - origin[d]) / used_step);
         if (!(from >= 0.) || !(to < n[d]))
-          return FeatureLevels::fine_parts * used_step;
+          return levels.fine_parts * used_step;
         first[d] = static_cast<unsigned int>(from);
         last[d]  = static_cast<unsigned int>(to);
       }
-    return fine.any(first, last)     ? FeatureLevels::fine_parts * used_step
-           : medium.any(first, last) ? FeatureLevels::medium_parts * used_step
+    return fine.any(first, last)     ? levels.fine_parts * used_step
+           : medium.any(first, last) ? levels.medium_parts * used_step
            : coarse.any(first, last, FeatureLevels::stride)
-             ? FeatureLevels::coarse_parts * used_step
+             ? levels.coarse_parts * used_step
              : std::numeric_limits<double>::infinity();
   }
 } // namespace tetradapt::mechanics

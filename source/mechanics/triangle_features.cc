@@ -10,7 +10,7 @@ namespace tetradapt::mechanics
   namespace
   {
     /** Sharper than in the volume, as faces take few points: kinks are also seen. */
-    constexpr FeatureLevels levels{0.05, 0.02, 0.04};
+    constexpr FeatureLevels levels{0.05, 2., 0.02, 4., 0.04, 8.};
   } // namespace
 
   TriangleFeatures::TriangleFeatures(const std::array<Point<3>, 3>     &corners,
@@ -77,7 +77,7 @@ namespace tetradapt::mechanics
   TriangleFeatures::part_size(const mesh::PartCorners<3> &part) const
   {
     if (n < 3)
-      return FeatureLevels::fine_parts * step;
+      return levels.fine_parts * step;
     MarkCounts::Index first{{0, 0, 0}}, last{{0, 0, 0}};
     for (unsigned int d = 0; d < 2; ++d)
       {
@@ -85,10 +85,10 @@ namespace tetradapt::mechanics
         first[d]               = static_cast<unsigned int>(std::max(0., std::floor(low * n)));
         last[d]                = std::min(n, static_cast<unsigned int>(std::ceil(high * n)));
       }
-    return fine.any(first, last)     ? FeatureLevels::fine_parts * step
-           : medium.any(first, last) ? FeatureLevels::medium_parts * step
+    return fine.any(first, last)     ? levels.fine_parts * step
+           : medium.any(first, last) ? levels.medium_parts * step
            : coarse.any(first, last, FeatureLevels::stride)
-             ? FeatureLevels::coarse_parts * step
+             ? levels.coarse_parts * step
              : std::numeric_limits<double>::infinity();
   }
 } // namespace tetradapt::mechanics

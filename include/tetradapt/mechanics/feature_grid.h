@@ -46,7 +46,7 @@ namespace tetradapt::mechanics
     }
 
     /** How long the edges of a part of a cell in a box may be for nothing to be missed, see
-     * FeatureLevels; two steps outside of the grid. */
+     * FeatureLevels; as where it varies fastest outside of the grid. */
     double
     part_size(const Point<3> &lower, const Point<3> &upper) const;
 

@@ -16,14 +16,11 @@ namespace tetradapt::mechanics
    */
   struct FeatureLevels
   {
-    double fine;   ///< differences over one step above this: parts of two steps
-    double medium; ///< the same: parts of four steps
-    double coarse; ///< differences over four steps above this: parts of eight steps
+    double fine, fine_parts;     ///< differences over one step; steps a part where they are larger
+    double medium, medium_parts; ///< the same
+    double coarse, coarse_parts; ///< the same with differences over stride steps
 
-    static constexpr unsigned int stride       = 4;
-    static constexpr double       fine_parts   = 2.;
-    static constexpr double       medium_parts = 4.;
-    static constexpr double       coarse_parts = 8.;
+    static constexpr unsigned int stride = 4;
   };
 
   /** Marks on the nodes of a regular grid, and whether there is any in a range, in constant

@@ -86,7 +86,7 @@ namespace tetradapt::mechanics
 
     /** Evaluations on one mesh that are spent on parts of cells where an expression varies
      * fast, up to a factor of about ten; they set the size of the smallest parts. */
-    static constexpr double most_evaluations = 3e5;
+    static constexpr double most_evaluations = 2e5;
     /** Nodes of a grid. */
     static constexpr std::size_t most_nodes = 4000000;
 

@@ -36,7 +36,8 @@ namespace tetradapt::mesh
   }
 
   /** Calls @p action with the corners of the 4 or 8 parts of the same measure that middles of
-   * edges make of a part. */
+   * edges make of a part. Parts of parts keep their shapes: with the order of the corners here,
+   * tetrahedra have three at most (Bey, Computing 55, 1995). */
   template <unsigned long n_corners, unsigned long n_coordinates, typename Action>
   void
   for_children(const std::array<std::array<double, n_coordinates>, n_corners> &c,
@@ -44,8 +45,8 @@ namespace tetradapt::mesh
   {
     static_assert(n_corners == 3 || n_corners == 4, "triangles and tetrahedra");
     using Corners = std::array<std::array<double, n_coordinates>, n_corners>;
-    // One part at each corner, and the rest: a triangle, or four tetrahedra around one
-    // diagonal of an octahedron.
+    // One part at each corner, and the rest: a triangle, or four tetrahedra around the
+    // diagonal of an octahedron from edge (0,2) to edge (1,3).
     for (unsigned int i = 0; i < n_corners; ++i)
       {
         Corners child = c;
@@ -58,9 +59,11 @@ namespace tetradapt::mesh
       action(Corners{{m(0, 1), m(1, 2), m(2, 0)}});
     else
       {
-        const Corners ring{{m(0, 1), m(1, 3), m(2, 3), m(0, 2)}};
-        for (unsigned int k = 0; k < 4; ++k)
-          action(Corners{{m(0, 3), m(1, 2), ring[k], ring[(k + 1) % 4]}});
+        const auto a = m(0, 1), b = m(0, 2), c03 = m(0, 3), d = m(1, 2), e = m(1, 3), f = m(2, 3);
+        action(Corners{{a, b, c03, e}});
+        action(Corners{{a, b, d, e}});
+        action(Corners{{b, c03, e, f}});
+        action(Corners{{b, d, e, f}});
       }
   }
 } // namespace tetradapt::mesh
