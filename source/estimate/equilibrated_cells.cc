@@ -17,9 +17,7 @@ namespace tetradapt::estimate
     constexpr unsigned int components[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
   } // namespace
 
-  CellStates::CellStates(const mesh::NodalField       &u_h,
-                         const scene::Scene           &scene,
-                         const mechanics::MaterialMap &materials)
+  CellStates::CellStates(const mesh::NodalField &u_h, const mechanics::MaterialMap &materials)
     : u_h(u_h), mesh(u_h.mesh()), materials(materials), inverse_products(10, 10)
   {
     const compare::TetQuadrature &rule = compare::tet_quadrature(5);

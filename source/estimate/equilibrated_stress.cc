@@ -16,14 +16,14 @@ namespace tetradapt::estimate
                                          const mechanics::MaterialMap &materials,
                                          MPI_Comm                      communicator,
                                          const double                  near)
-    : states(u_h, scene, materials), faces(u_h.mesh()), loads(face_loads(scene, u_h.mesh())),
+    : states(u_h, materials), faces(u_h.mesh()), loads(face_loads(scene, u_h.mesh())),
       edges(u_h.degree() == 2 ? u_h.shared_edges()
                               : std::make_shared<mesh::EdgeTable>(mesh::build_edges(u_h.mesh()))),
       mesh(u_h.mesh())
   {
     std::unique_ptr<CellStates> other_states;
     if (&galerkin != &u_h)
-      other_states = std::make_unique<CellStates>(galerkin, scene, materials);
+      other_states = std::make_unique<CellStates>(galerkin, materials);
     compare::together(communicator, [&] {
       FaceTractions tractions(galerkin,
                               other_states == nullptr ? states : *other_states,

@@ -39,7 +39,7 @@ namespace tetradapt::estimate
     const mesh::TetMesh &mesh = u_h.mesh();
     result.assign(mesh.n_cells(), 0.);
     compare::together(communicator, [&] {
-      const CellStates            states(u_h, scene, materials);
+      const CellStates            states(u_h, materials);
       const CellFaces             faces(mesh);
       const std::vector<FaceLoad> loads = face_loads(scene, mesh);
       const compare::Slice        own   = compare::own_slice(mesh.n_cells(), communicator);

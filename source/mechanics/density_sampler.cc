@@ -299,17 +299,12 @@ namespace tetradapt::mechanics
                             const double   fraction,
                             bool          &was_limited) const
   {
-    /** Lines are located in parts that are this much shorter than what was looked for, so that
-     * a curve is nearly straight in them. */
-    constexpr double straight = 0.25;
-
-    const SamplingRules<n> &rules    = work.rules;
-    Part                    part     = part_at(work, corners);
-    const bool              has_look = bool(rules.part_size);
-    const double            look     = has_look ? rules.part_size(corners, part.lower, part.upper)
-                                                : std::numeric_limits<double>::infinity();
-    const bool              is_small = part.size <= look;
-    was_limited                      = false;
+    const SamplingRules<n> &rules = work.rules;
+    Part                    part  = part_at(work, corners);
+    const double look     = rules.part_size ? rules.part_size(corners, part.lower, part.upper)
+                                            : std::numeric_limits<double>::infinity();
+    const bool   is_small = part.size <= look;
+    was_limited           = false;
     if (is_small)
       {
         look_at(work, part);
@@ -321,7 +316,7 @@ namespace tetradapt::mechanics
             keep(work, part, fraction);
             return fraction * part.mean;
           }
-        if ((!has_look || part.size <= straight * look) && divide_at_jump(work, part, fraction))
+        if (part.size <= rules.straight && divide_at_jump(work, part, fraction))
           {
             Tensor<1, 3> sum;
             for (std::size_t i = work.samples.size() - 3 * n_points; i < work.samples.size(); ++i)

@@ -208,7 +208,8 @@ namespace tetradapt::mechanics
     // Two parts a point of the lattice, with 13 points each, if they are as long as its step.
     const double finer = n_marks > 0. ? std::sqrt(most_evaluations / (26. * n_marks)) : 1. / finest;
     load.rules.finest  = load.spacing / std::clamp(finer, 0.5, 1. / finest);
-    load.is_looked_at  = true;
+    load.rules.straight = load.is_polynomial ? 0. : 0.5 * load.spacing;
+    load.is_looked_at   = true;
   }
 
   double

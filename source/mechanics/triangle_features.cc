@@ -9,8 +9,9 @@ namespace tetradapt::mechanics
 {
   namespace
   {
-    /** Sharper than in the volume, as faces take few points: kinks are also seen. */
-    constexpr FeatureLevels levels{0.05, 2., 0.02, 4., 0.04, 8.};
+    /** Sharper than in the volume, as faces take few points: kinks are also seen, and the corner of
+     * a patch between two points of a rim is small. */
+    constexpr FeatureLevels levels{0.3, 0.5, 0.02, 2., 0.04, 8.};
   } // namespace
 
   TriangleFeatures::TriangleFeatures(const std::array<Point<3>, 3>     &corners,

@@ -66,9 +66,7 @@ namespace tetradapt::estimate
   {
   public:
     /** The arguments must outlive this object. */
-    CellStates(const mesh::NodalField       &u_h,
-               const scene::Scene           &scene,
-               const mechanics::MaterialMap &materials);
+    CellStates(const mesh::NodalField &u_h, const mechanics::MaterialMap &materials);
 
     void
     compute(unsigned int cell, CellState &state) const;

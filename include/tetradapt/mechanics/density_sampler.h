@@ -30,6 +30,9 @@ namespace tetradapt::mechanics
   {
     /** Parts whose longest edge is below this are not cut further. */
     double finest = 0.;
+    /** Triangles: parts whose longest edge is below this are divided along jumps, which are nearly
+     * straight in them. */
+    double straight = 0.;
     /** Mean of |density| over all that it acts on. */
     double mean = 0.;
     /** The accuracy of a part's mean density, relative to the mean of |density| in it or, where
