@@ -65,7 +65,7 @@ namespace
     support.components         = {{true, true, false}};
     support.displacement       = {{"sin(y)", "if(x > 0, 1, 2)", "0"}};
     scene.supports.push_back(
-      {"other", {{}, {"y-max"}, ""}, {{false, true, true}}, {{"0", "0", "z"}}});
+      {"other", {{}, {"y-max"}, ""}, {{false, true, true}}, {{"0", "0", "z"}}, {}});
     scene.supports[1].selector              = {};
     scene.supports[1].place.line            = {{-1. / 3., 0., 1e-300}, {1., 2., 3.}};
     scene.supports[1].place.excluded_radius = 0.;
