@@ -17,6 +17,8 @@ namespace tetradapt::mechanics
     constexpr double default_spacing = 0.01; ///< of the body's diagonal
     /** Parts are not made smaller than this part of the grid's step. */
     constexpr double finest = 1. / 8.;
+    /** Steps of the grid: where it has no mark, nothing in a part of this size is missed. */
+    constexpr double seen_by_grid = 8.;
     /** Of the body's diagonal: steps that tell how large a polynomial is, and its smallest parts.
      */
     constexpr double few_points = 0.05, finest_of_polynomials = 0.02;
@@ -141,7 +143,7 @@ namespace tetradapt::mechanics
         term->grid = std::make_unique<FeatureGrid>(
           function, body.first, body.second, term->spacing, most_nodes, cells);
         has_grid           = true;
-        rules->without_rim = std::min(rules->without_rim, term->grid->step());
+        rules->without_rim = std::min(rules->without_rim, seen_by_grid * term->grid->step());
         rules->mean += largest * term->grid->mean();
         // Six parts a box with 14 points each, if parts are as long as the grid's step.
         const double n     = 84. * term->grid->n_marks();
