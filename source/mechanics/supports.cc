@@ -137,7 +137,7 @@ namespace tetradapt::mechanics
               prescriber.add_node(s, node, displacement);
             continue;
           }
-        std::vector<unsigned int>    held(n_nodes, dealii::numbers::invalid_unsigned_int);
+        std::vector<unsigned int> held(n_nodes, dealii::numbers::invalid_unsigned_int);
         for (unsigned int f = 0; f < mesh.faces.size(); ++f)
           {
             const auto &selections = mesh.patches[mesh.faces[f].patch].selections;

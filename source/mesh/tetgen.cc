@@ -229,7 +229,7 @@ namespace tetradapt::mesh
     refined.region_names = mesh.region_names;
     refined.kept         = mesh.kept;
     check_kept_places(refined);
-    const double drift   = check_kept(mesh_totals(mesh), mesh_totals(refined), 1e-9, what);
+    const double drift = check_kept(mesh_totals(mesh), mesh_totals(refined), 1e-9, what);
     if (report != nullptr)
       {
         report->called     = true;

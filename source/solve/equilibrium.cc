@@ -75,10 +75,10 @@ namespace tetradapt::solve
         }
       for (unsigned int l = 0; l < scene.loads.size(); ++l)
         {
-          const scene::LoadParameters &load = scene.loads[l];
-          mechanics::Extent extent = mechanics::acts_on_body(load.type)
-                                       ? mechanics::body_extent(load, mesh, regions)
-                                       : patches.of("Loads/" + load.name);
+          const scene::LoadParameters &load   = scene.loads[l];
+          mechanics::Extent            extent = mechanics::acts_on_body(load.type)
+                                                  ? mechanics::body_extent(load, mesh, regions)
+                                                  : patches.of("Loads/" + load.name);
           if (load.type == scene::LoadType::point_force)
             extent.n_nodes = 1;
           result.loads.push_back({load.name, scene::word(load.type), system.loads[l], extent});

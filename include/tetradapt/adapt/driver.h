@@ -147,7 +147,7 @@ namespace tetradapt::adapt
     std::unique_ptr<compare::Reference>               reference;
     std::shared_ptr<const compare::ReferenceSampling> sampling;
     compare::ExcludedRegion                           excluded; ///< what errors leave out
-    std::unique_ptr<mesh::NodalField>                 start; ///< first iterate of the next solve
+    std::unique_ptr<mesh::NodalField>                 start;    ///< first iterate of the next solve
     std::vector<CycleRecord>                          history;
     std::vector<estimate::EnergyLevel>                levels; ///< accepted meshes only
     std::vector<Doubt>                                doubts; ///< about the last solution

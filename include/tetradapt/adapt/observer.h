@@ -68,9 +68,9 @@ namespace tetradapt::adapt
   /** A point or a line where a support or a load acts: what errors leave out around it. */
   struct LeftOutRecord
   {
-    std::string   name;           ///< "Loads/tip"
-    std::string   place;          ///< "within 0.2 of (4, 0, 0)"; empty: nothing is left out
-    double        radius   = 0.;  ///< 0: nothing is left out
+    std::string   name;          ///< "Loads/tip"
+    std::string   place;         ///< "within 0.2 of (4, 0, 0)"; empty: nothing is left out
+    double        radius   = 0.; ///< 0: nothing is left out
     bool          is_force = false;
     unsigned long n_cells  = 0; ///< of this cycle's mesh that are left out
   };

@@ -28,7 +28,7 @@ namespace tetradapt::compare
     {
       std::string             name; ///< of the support or load, "Loads/tip"
       std::array<Point<3>, 2> ends;
-      double                  radius = 0.; ///< 0: nothing is left out
+      double                  radius   = 0.; ///< 0: nothing is left out
       bool                    is_force = false;
 
       bool

@@ -14,7 +14,7 @@ namespace tetradapt::mechanics
 {
   /**
    * A traction on some faces of a mesh whose resultant is what a scene gives
-   * (scene::LoadType::total_force), on each mesh anew:
+   * (scene::LoadType::total_force), again on each mesh:
    *
    *     t = a + b x (x - c) - k max(0, -n . d) m
    *

@@ -145,7 +145,7 @@ namespace tetradapt::scene
     bearing ///< as a pin presses on a hole: -n . d where that is positive
   };
 
-  /** What a load of type LoadType::total_force has besides LoadParameters::value, the force. */
+  /** What a total force has in addition to LoadParameters::value, the force. */
   struct TotalForceParameters
   {
     std::array<std::string, 3>      moment{{"0", "0", "0"}}; ///< constants
