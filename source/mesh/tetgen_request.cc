@@ -257,8 +257,11 @@ namespace tetradapt::mesh
     std::set<std::pair<unsigned int, unsigned int>> segments;
     for (const auto &segment : plc.segments)
       segments.insert(std::minmax(segment[0], segment[1]));
-    for (const auto &segment : segments)
-      request.edges.insert(request.edges.end(), {segment.first, segment.second});
+    for (const auto &[first, second] : segments)
+      {
+        request.edges.push_back(first);
+        request.edges.push_back(second);
+      }
     for (const auto &region : plc.regions)
       request.regions.insert(request.regions.end(),
                              {region.seed[0],
