@@ -19,10 +19,11 @@ namespace tetradapt::adapt
       log.warning(scene.with_place(warning));
     for (const auto &warning : mechanics::held_point_force_warnings(scene, *mesh))
       log.warning(scene.with_place(warning));
+    const compare::ExcludedRegion excluded(scene, *mesh);
     for (const auto &goal : scene.goals)
       if (goal.type == scene::GoalType::point_displacement
           || goal.type == scene::GoalType::point_stress)
-        for (const auto &part : compare::ExcludedRegion(scene, *mesh).all_parts())
+        for (const auto &part : excluded.all_parts())
           if (part.contains(goal.point))
             log.warning(scene.with_place(
               "Goals/" + goal.name + "/Point: it lies " + part.text() + ", where " + part.name
