@@ -15,6 +15,8 @@ namespace tetradapt::mechanics
     constexpr double default_spacing = 0.01; ///< of the body's diagonal
     /** Parts of faces are not cut below this part of the spacing. */
     constexpr double finest = 1. / 64.;
+    /** The same for polynomials, of the body's diagonal. */
+    constexpr double finest_of_polynomials = 0.02;
 
     std::array<std::string, 3>
     texts_of(const scene::LoadParameters &load)
@@ -207,7 +209,9 @@ namespace tetradapt::mechanics
         }
     // Two parts a point of the lattice, with 13 points each, if they are as long as its step.
     const double finer = n_marks > 0. ? std::sqrt(most_evaluations / (26. * n_marks)) : 1. / finest;
-    load.rules.finest  = load.spacing / std::clamp(finer, 0.5, 1. / finest);
+    // A polynomial that is mere rounding fits nowhere, however small the parts.
+    load.rules.finest = load.is_polynomial ? finest_of_polynomials * box.first.distance(box.second)
+                                           : load.spacing / std::clamp(finer, 0.5, 1. / finest);
     load.rules.straight = load.is_polynomial ? 0. : 0.5 * load.spacing;
     load.is_looked_at   = true;
   }

@@ -129,7 +129,7 @@ namespace tetradapt::scene
              p.smallest_feature,
              number_codec(),
              "Size of the smallest thing that Value may show, such as a peak or a patch. Value is "
-             "looked at with this spacing, whatever the mesh, before it is integrated; 0: a "
+             "looked at with this spacing on every mesh before it is integrated; 0: a "
              "hundredth of the body's diagonal.");
       bind_special_loads(p, binder);
       if (!binder.parsing())

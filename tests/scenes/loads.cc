@@ -203,6 +203,19 @@ end
           result.code == 0 && contains(result.out, "since the first mesh"));
   }
 
+  /** A polynomial of which nothing but rounding is left fits nowhere. */
+  void
+  rounding()
+  {
+    const Result result = run_block("rounding",
+                                    block("set Type = pressure\nset Groups = z-max\nset Value = "
+                                          "(x+1000)*(x+1000) - x^2 - 2000*x - 1000000",
+                                          "1"),
+                                    "");
+    check("a value that is mere rounding is warned of",
+          result.code == 0 && contains(result.err, "Loads/l is integrated to"));
+  }
+
   void
   refused()
   {
@@ -222,5 +235,6 @@ main()
   small_peak();
   slab();
   projected();
+  rounding();
   refused();
 }

@@ -51,7 +51,7 @@ namespace tetradapt::mechanics
 
   /**
    * Samples a vector function of the position over triangles or tetrahedra of a mesh so that
-   * integrals of it times polynomials of low degree are accurate, whatever the mesh.
+   * integrals of it times polynomials of low degree are accurate on every mesh.
    *
    * The element is cut, into 4 or 8 similar parts, until each part has the size at which the
    * function has been looked at, and is then cut where a quadratic polynomial does not fit the

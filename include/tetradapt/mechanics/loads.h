@@ -44,7 +44,7 @@ namespace tetradapt::mechanics
    * carry a load's name, body forces, weight, and int B^T C eps_thermal.
    *
    * Densities are sampled as SurfaceLoads and VolumeDensity say: constants are integrated
-   * exactly, other expressions adaptively, whatever the mesh.
+   * exactly, other expressions adaptively, on every mesh alike.
    *
    * LoadType::nodal_force is no integral: its value acts at every point of the mesh on
    * the chosen faces (with degree 2 at the vertices only). The total grows with the number
