@@ -14,6 +14,7 @@
 // of a brick.
 
 #include "tetradapt/core/exceptions.h"
+#include "tetradapt/fem/triangulation.h"
 #include "tetradapt/mechanics/matrix_free_stiffness.h"
 #include "tetradapt/mechanics/stiffness.h"
 #include "tetradapt/mesh/bricks.h"
@@ -129,13 +130,13 @@ namespace
                     const mesh::TetMesh          &body,
                     unsigned int                  degree)
   {
-    const mechanics::MeshPartition     partition(body, MPI_COMM_WORLD);
-    const mechanics::TangentField      tangents(materials, body);
-    const mesh::EdgeTable              edges = mesh::build_edges(body);
-    const mechanics::DisplacementSpace space(partition, degree, &edges);
-    const auto  prescribed = mechanics::prescribe(scene.supports, body, &edges);
-    const auto  system     = mechanics::assemble(space, tangents, prescribed);
-    const auto &matrix     = system.matrix;
+    const fem::Triangulation      triangulation(body, MPI_COMM_WORLD);
+    const mechanics::TangentField tangents(materials, body);
+    const mesh::EdgeTable         edges = mesh::build_edges(body);
+    const fem::Space              space(triangulation, degree, &edges);
+    const auto                    prescribed = mechanics::prescribe(scene.supports, body, &edges);
+    const auto                    system     = mechanics::assemble(space, tangents, prescribed);
+    const auto                   &matrix     = system.matrix;
 
     solve::BlockRows<3, 3> rows;
     for (unsigned int row = 0; row < matrix.n_rows(); ++row)

@@ -67,12 +67,18 @@ namespace tetradapt::compare
   void
   sum_over_ranks(std::vector<double> &values, MPI_Comm communicator)
   {
+    sum_over_ranks(values.data(), values.size(), communicator);
+  }
+
+  void
+  sum_over_ranks(double *values, const std::size_t n, MPI_Comm communicator)
+  {
     if (n_ranks(communicator) == 1)
       return;
-    for (std::size_t i = 0; i < values.size(); i += longest_message)
+    for (std::size_t i = 0; i < n; i += longest_message)
       MPI_Allreduce(MPI_IN_PLACE,
-                    values.data() + i,
-                    static_cast<int>(std::min(longest_message, values.size() - i)),
+                    values + i,
+                    static_cast<int>(std::min(longest_message, n - i)),
                     MPI_DOUBLE,
                     MPI_SUM,
                     communicator);

@@ -124,8 +124,8 @@ namespace tetradapt::estimate
       const mesh::TetMesh          &mesh;
     };
 
-    Values
-    inverse_blocks(Values blocks)
+    std::vector<double>
+    inverse_blocks(std::vector<double> blocks)
     {
       dealii::FullMatrix<double> block(3, 3);
       for (std::size_t first = 0; first < blocks.size(); first += 9)
@@ -137,23 +137,6 @@ namespace tetradapt::estimate
             blocks[first + i] = block(i / 3, i % 3);
         }
       return blocks;
-    }
-
-    double
-    product(const Values &a, const Values &b)
-    {
-      double sum = 0.;
-      for (std::size_t i = 0; i < a.size(); ++i)
-        sum += a[i] * b[i];
-      return sum;
-    }
-
-    /** a = factor a + b */
-    void
-    scale_and_add(Values &a, double factor, const Values &b)
-    {
-      for (std::size_t i = 0; i < a.size(); ++i)
-        a[i] = factor * a[i] + b[i];
     }
 
     const solve::StaticSolution &
@@ -173,15 +156,15 @@ namespace tetradapt::estimate
     : solution(checked(solution)), enriched_space(*solution.displacement, materials, communicator),
       prescribed(prescribe_surplus(scene.supports, enriched_space.surplus()))
   {
-    Values             extra(enriched_space.size(), 0.);
+    Values             extra(enriched_space.size());
     const SurplusLoads surplus_loads(scene, materials, enriched_space);
     compare::together(communicator, [&] {
       surplus_loads.add_faces(extra);
       surplus_loads.add_cells(extra);
     });
-    compare::sum_over_ranks(extra, communicator);
+    compare::sum_over_ranks(extra.data(), extra.size(), communicator);
     loads = enriched_space.embed(solution.system->nodal_forces());
-    scale_and_add(loads, 1., extra);
+    loads += extra;
   }
 
   Values
@@ -215,7 +198,7 @@ namespace tetradapt::estimate
   {
     Values result;
     enriched_space.multiply(u, result);
-    scale_and_add(result, -1., loads);
+    result.sadd(-1., 1., loads);
     clear_supported(result);
     return result;
   }
@@ -229,7 +212,7 @@ namespace tetradapt::estimate
       for (unsigned int c = 0; c < 3; ++c)
         nodal_residual[i][c] = residual[3 * i + c];
     solution.system->precondition(nodal_residual, nodal_result);
-    result.resize(residual.size());
+    result.reinit(residual, true);
     for (std::size_t i = 0; i < n_nodes; ++i)
       for (unsigned int c = 0; c < 3; ++c)
         result[3 * i + c] = nodal_result[i][c];
@@ -245,48 +228,51 @@ namespace tetradapt::estimate
     clear_supported(result);
   }
 
+  /** The stiffness in the space of free functions. */
+  struct EnrichedProblem::FreeStiffness
+  {
+    const EnrichedProblem &problem;
+
+    void
+    vmult(Values &forces, const Values &x) const
+    {
+      problem.enriched_space.multiply(x, forces);
+      problem.clear_supported(forces);
+    }
+  };
+
+  struct EnrichedProblem::AdditivePreconditioner
+  {
+    const EnrichedProblem &problem;
+
+    void
+    vmult(Values &result, const Values &residual) const
+    {
+      problem.precondition(residual, result);
+    }
+  };
+
   EnrichedProblem::Correction
   EnrichedProblem::solve(const Values &forces, double tolerance) const
   {
-    constexpr unsigned int     most = 500; // tens are usual, at Poisson ratios near 0.5, too
-    Correction                 result;
-    Values                     residual = forces, preconditioned, direction, stiff;
-    solve::EnergyErrorEstimate estimate;
-    double                     energy = 0.;
-    result.values.assign(forces.size(), 0.);
-    for (; result.n_iterations < most; ++result.n_iterations)
-      {
-        precondition(residual, preconditioned);
-        const double before = energy;
-        energy              = product(residual, preconditioned);
-        if (energy == 0.)
-          return result; // the solution is exact
-        if (result.n_iterations == 0)
-          direction = preconditioned;
-        else
-          scale_and_add(direction, energy / before, preconditioned);
-        enriched_space.multiply(direction, stiff);
-        clear_supported(stiff);
-        const double alpha = energy / product(direction, stiff);
-        for (std::size_t i = 0; i < forces.size(); ++i)
-          {
-            result.values[i] += alpha * direction[i];
-            residual[i] -= alpha * stiff[i];
-          }
-        estimate.add(alpha * energy);
-        result.norm        = std::sqrt(estimate.gained());
-        const auto squared = estimate.squared_error();
-        if (squared && *squared <= tolerance * tolerance * estimate.gained())
-          {
-            result.error = std::sqrt(*squared);
-            ++result.n_iterations;
-            return result;
-          }
-      }
-    throw core::NumericalError(
-      "The solution of the next degree, which an error estimator needs, did not converge in "
-      + std::to_string(most)
-      + " iterations. Look for materials of very different stiffness, a Poisson ratio close to 0.5 "
-        "or very flat elements, or choose another estimator in Estimation.");
+    solve::IterationLimits limits;
+    limits.relative_error = tolerance;
+    limits.max_iterations = 500; // tens are usual, at Poisson ratios near 0.5, too
+    solve::EnergyControl control(limits);
+    Correction           result;
+    result.values.reinit(forces);
+    const solve::Ending ending = solve::conjugate_gradients(
+      FreeStiffness{*this}, AdditivePreconditioner{*this}, forces, control, result.values);
+    const solve::IterationResult reached = control.result();
+    if (ending != solve::Ending::converged)
+      throw core::NumericalError(
+        "The solution of the next degree, which an error estimator needs, did not converge in "
+        + std::to_string(reached.iterations)
+        + " iterations. Look for materials of very different stiffness, a Poisson ratio close to "
+          "0.5 or very flat elements, or choose another estimator in Estimation.");
+    result.norm         = std::sqrt(reached.gained);
+    result.error        = reached.residual > 0. ? reached.error : 0.;
+    result.n_iterations = reached.iterations;
+    return result;
   }
 } // namespace tetradapt::estimate

@@ -28,7 +28,7 @@ namespace tetradapt::estimate
   EnrichedSpace::Values
   EnrichedSpace::embed(const std::vector<Tensor<1, 3>> &nodal_values) const
   {
-    Values result(size(), 0.);
+    Values result(size());
     for (unsigned int i = 0; i < n_field_nodes; ++i)
       for (unsigned int c = 0; c < 3; ++c)
         result[3 * i + c] = nodal_values[i][c];
@@ -38,9 +38,9 @@ namespace tetradapt::estimate
   void
   EnrichedSpace::multiply(const Values &x, Values &forces) const
   {
-    forces.assign(size(), 0.);
+    forces.reinit(size());
     multiply_batches(*batches, x.data(), forces.data());
-    compare::sum_over_ranks(forces, mpi_communicator);
+    compare::sum_over_ranks(forces.data(), forces.size(), mpi_communicator);
   }
 
   std::vector<double>
@@ -53,10 +53,11 @@ namespace tetradapt::estimate
     return products;
   }
 
-  EnrichedSpace::Values
+  std::vector<double>
   EnrichedSpace::surplus_diagonal() const
   {
-    Values diagonal(9 * static_cast<std::size_t>(hierarchical_surplus.n_functions()), 0.);
+    std::vector<double> diagonal(9 * static_cast<std::size_t>(hierarchical_surplus.n_functions()),
+                                 0.);
     add_surplus_diagonal(*batches, n_field_nodes, diagonal.data());
     compare::sum_over_ranks(diagonal, mpi_communicator);
     return diagonal;

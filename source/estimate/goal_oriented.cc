@@ -69,13 +69,11 @@ namespace tetradapt::estimate
         return;
       Values rest;
       problem.space().multiply(correction.values, rest);
-      for (std::size_t i = 0; i < rest.size(); ++i)
-        rest[i] = forces[i] - rest[i];
+      rest.sadd(-1., 1., forces);
       problem.clear_supported(rest);
       const double norm = correction.norm;
       const auto   more = problem.solve(rest, std::min(0.5, tolerance * norm / correction.error));
-      for (std::size_t i = 0; i < rest.size(); ++i)
-        correction.values[i] += more.values[i];
+      correction.values += more.values;
       correction.norm  = std::hypot(norm, more.norm);
       correction.error = more.error;
     }
@@ -118,19 +116,19 @@ namespace tetradapt::estimate
     const EnrichedSpace  &space = problem.space();
     const std::size_t     nodal = 3 * static_cast<std::size_t>(space.n_nodes()), all = space.size();
 
-    const Values goal = put_on_mesh(chosen_goal(input.scene),
-                                    *input.solution.displacement,
-                                    input.comparison,
-                                    &space.surplus())
-                          .forces;
+    const auto goal_forces = put_on_mesh(chosen_goal(input.scene),
+                                         *input.solution.displacement,
+                                         input.comparison,
+                                         &space.surplus())
+                               .forces;
+    const Values              goal(goal_forces.begin(), goal_forces.end());
     solve::StaticSystem::Stop stop;
     stop.relative_error = dual_accuracy;
     const auto   z   = input.solution.system->solve_dual(nodal_part(goal, space.n_nodes()), stop);
     const Values z_h = space.embed(z->values);
     Values       dual_residual;
     space.multiply(z_h, dual_residual);
-    for (std::size_t i = 0; i < all; ++i)
-      dual_residual[i] = goal[i] - dual_residual[i];
+    dual_residual.sadd(-1., 1., goal);
     problem.clear_supported(dual_residual);
 
     const Values supported = problem.supported_solution();

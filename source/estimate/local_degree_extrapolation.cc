@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/compare/cell_stress.h"
 #include "tetradapt/compare/stress_difference.h"
+#include "tetradapt/core/exceptions.h"
 #include "tetradapt/estimate/enriched_problem.h"
 #include "tetradapt/estimate/extrapolation.h"
 #include "tetradapt/mesh/face_table.h"
+#include "tetradapt/solve/conjugate_gradients.h"
 
 namespace tetradapt::estimate
 {
@@ -154,18 +156,9 @@ namespace tetradapt::estimate
           }
       }
 
-      Values values;
-      double products[4][4][6]; ///< for k >= l
+      std::vector<double> values;
+      double              products[4][4][6]; ///< for k >= l
     };
-
-    double
-    product(const Values &a, const Values &b)
-    {
-      double sum = 0.;
-      for (std::size_t i = 0; i < a.size(); ++i)
-        sum += a[i] * b[i];
-      return sum;
-    }
 
     /** What some steps of conjugate gradients found, and the square of the energy norm
      * that they are estimated to have left over. */
@@ -190,45 +183,68 @@ namespace tetradapt::estimate
       return last[0] * rate / (1. - rate);
     }
 
-    RoughCorrection
-    correct(const EnrichedProblem &problem, Values residual, const DiagonalBlocks &inverses)
+    /** Four or five steps for moderate Poisson ratios, up to all of them near 0.5. */
+    class RoughControl : public solve::GainControl
     {
-      // Four or five steps for moderate Poisson ratios, up to all of them near 0.5.
-      constexpr unsigned int fewest_steps = 4, most_steps = 16;
-      constexpr double       small_gain = 0.03; // of what has been found
-
-      RoughCorrection     result;
-      Values              preconditioned(residual.size()), direction, stiff;
+    public:
       std::vector<double> gains;
-      double              energy = 0., found = 0.;
-      result.values.assign(residual.size(), 0.);
-      while (gains.size() < most_steps)
-        {
-          inverses.multiply(residual, preconditioned);
-          problem.clear_supported(preconditioned);
-          const double before = energy;
-          energy              = product(residual, preconditioned);
-          if (!(energy > 0.))
-            return result; // the solution is that of the next degree
-          if (gains.empty())
-            direction = preconditioned;
-          else
-            for (std::size_t k = 0; k < direction.size(); ++k)
-              direction[k] = preconditioned[k] + energy / before * direction[k];
-          problem.space().multiply(direction, stiff);
-          problem.clear_supported(stiff);
-          const double alpha = energy / product(direction, stiff);
-          for (std::size_t k = 0; k < direction.size(); ++k)
-            {
-              result.values[k] += alpha * direction[k];
-              residual[k] -= alpha * stiff[k];
-            }
-          gains.push_back(alpha * energy);
-          found += gains.back();
-          if (gains.size() >= fewest_steps && gains.back() <= small_gain * found)
-            break;
-        }
-      result.missing = missing_energy(gains);
+
+    protected:
+      State
+      decide(const unsigned int step, const double residual, const double gain) override
+      {
+        if (step > 0)
+          gains.push_back(gain);
+        found += gain;
+        const bool is_enough = step >= fewest_steps && gain <= small_gain * found;
+        return residual == 0. || is_enough || step == most_steps ? State::success : State::iterate;
+      }
+
+    private:
+      static constexpr unsigned int fewest_steps = 4, most_steps = 16;
+      static constexpr double       small_gain = 0.03; // of what has been found
+      double                        found      = 0.;
+    };
+
+    /** Of the free functions: the stiffness, and the inverses of its diagonal's blocks. */
+    struct FreeStiffness
+    {
+      const EnrichedProblem &problem;
+
+      void
+      vmult(Values &forces, const Values &x) const
+      {
+        problem.space().multiply(x, forces);
+        problem.clear_supported(forces);
+      }
+    };
+    struct FreeInverses
+    {
+      const EnrichedProblem &problem;
+      const DiagonalBlocks  &inverses;
+
+      void
+      vmult(Values &x, const Values &forces) const
+      {
+        inverses.multiply(forces, x);
+        problem.clear_supported(x);
+      }
+    };
+
+    RoughCorrection
+    correct(const EnrichedProblem &problem, const Values &residual, const DiagonalBlocks &inverses)
+    {
+      RoughCorrection result;
+      RoughControl    control;
+      result.values.reinit(residual);
+      const solve::Ending ending = solve::conjugate_gradients(
+        FreeStiffness{problem}, FreeInverses{problem, inverses}, residual, control, result.values);
+      if (ending == solve::Ending::not_finite)
+        throw core::NumericalError("Estimator local degree extrapolation: the solution, or a load "
+                                   "on it, is not finite.");
+      // The matrix looks singular to rounding where nothing is left: then nothing is missing.
+      if (ending == solve::Ending::converged && control.gains.size() >= 4)
+        result.missing = missing_energy(control.gains);
       return result;
     }
   } // namespace

@@ -10,7 +10,7 @@ namespace tetradapt::mechanics
     /** The local nodes of the space's cells, and of each owned node where it is among them. */
     struct CellNodes
     {
-      explicit CellNodes(const DisplacementSpace &space)
+      explicit CellNodes(const fem::Space &space)
         : n_per_cell(space.n_nodes_per_cell()), starts(space.n_owned_nodes() + 1, 0)
       {
         nodes.reserve(std::size_t(n_per_cell) * space.touching_cells().size());
@@ -35,7 +35,7 @@ namespace tetradapt::mechanics
     };
   } // namespace
 
-  BlockMatrix::BlockMatrix(const DisplacementSpace &space, std::vector<unsigned int> *cell_entries)
+  BlockMatrix::BlockMatrix(const fem::Space &space, std::vector<unsigned int> *cell_entries)
     : layout(space.vector_layout())
   {
     const CellNodes            around(space);

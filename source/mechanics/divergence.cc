@@ -19,7 +19,7 @@ namespace tetradapt::mechanics
     : n_displacements(space.displacements().n_owned_nodes()), n_pressures(space.n_owned_nodes()),
       fixed(n_displacements)
   {
-    const DisplacementSpace &displacements = space.displacements();
+    const fem::Space &displacements = space.displacements();
     for (unsigned int node = 0; node < n_displacements; ++node)
       fixed[node] = prescribed.fixed[displacements.field_node(node)];
     cells.reserve(displacements.touching_cells().size());

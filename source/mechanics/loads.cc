@@ -39,9 +39,7 @@ namespace tetradapt::mechanics
     class Assembly
     {
     public:
-      Assembly(const scene::Scene      &scene,
-               const MaterialMap       &materials,
-               const DisplacementSpace &space)
+      Assembly(const scene::Scene &scene, const MaterialMap &materials, const fem::Space &space)
         : scene(scene), materials(materials), space(space), mesh(space.tet_mesh()),
           surface_loads(scene, mesh)
       {
@@ -256,21 +254,19 @@ namespace tetradapt::mechanics
         return mesh.points[edge[0]] + 0.5 * (mesh.points[edge[1]] - mesh.points[edge[0]]);
       }
 
-      const scene::Scene      &scene;
-      const MaterialMap       &materials;
-      const DisplacementSpace &space;
-      const mesh::TetMesh     &mesh;
-      SurfaceLoads             surface_loads;
-      Forces                   forces; ///< of one load
+      const scene::Scene  &scene;
+      const MaterialMap   &materials;
+      const fem::Space    &space;
+      const mesh::TetMesh &mesh;
+      SurfaceLoads         surface_loads;
+      Forces               forces; ///< of one load
 
       std::vector<std::array<unsigned int, 6>> face_nodes;
     };
   } // namespace
 
   NodalLoads
-  assemble_loads(const scene::Scene      &scene,
-                 const MaterialMap       &materials,
-                 const DisplacementSpace &space)
+  assemble_loads(const scene::Scene &scene, const MaterialMap &materials, const fem::Space &space)
   {
     return Assembly(scene, materials, space).all();
   }

@@ -42,7 +42,7 @@ namespace tetradapt::mechanics
   } // namespace
 
   template <typename Number>
-  MatrixFreeStiffness<Number>::MatrixFreeStiffness(const DisplacementSpace      &space,
+  MatrixFreeStiffness<Number>::MatrixFreeStiffness(const fem::Space             &space,
                                                    const TangentField           &tangents,
                                                    const PrescribedDisplacement &prescribed,
                                                    const double                  scale)

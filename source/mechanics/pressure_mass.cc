@@ -12,7 +12,7 @@ namespace tetradapt::mechanics
 {
   PressureMass::PressureMass(const PressureSpace &space, const MaterialMap &materials)
   {
-    const DisplacementSpace                    &displacements = space.displacements();
+    const fem::Space                           &displacements = space.displacements();
     const mesh::TetMesh                        &mesh          = displacements.tet_mesh();
     const unsigned int                          n             = space.n_owned_nodes();
     std::vector<std::map<unsigned int, double>> rows(n);
@@ -103,9 +103,9 @@ namespace tetradapt::mechanics
     Vector load(space.vector_layout());
     if (!materials.has_thermal_strain())
       return load;
-    const DisplacementSpace &displacements = space.displacements();
-    const mesh::TetMesh     &mesh          = displacements.tet_mesh();
-    VolumeDensity::Samples   samples;
+    const fem::Space      &displacements = space.displacements();
+    const mesh::TetMesh   &mesh          = displacements.tet_mesh();
+    VolumeDensity::Samples samples;
     for (const unsigned int cell : displacements.touching_cells())
       {
         if (!materials.thermal_density().acts_in(mesh.regions[cell]))

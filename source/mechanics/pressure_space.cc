@@ -7,7 +7,7 @@ namespace tetradapt::mechanics
 {
   using dealii::numbers::invalid_unsigned_int;
 
-  PressureSpace::PressureSpace(const DisplacementSpace                   &displacements,
+  PressureSpace::PressureSpace(const fem::Space                          &displacements,
                                std::shared_ptr<const mesh::PressureNodes> nodes)
     : displacement_space(displacements), pressure_nodes(std::move(nodes)),
       local_nodes(pressure_nodes->size(), invalid_unsigned_int)

@@ -33,7 +33,7 @@ namespace tetradapt::mechanics
     class SupportedCells
     {
     public:
-      SupportedCells(const DisplacementSpace      &space,
+      SupportedCells(const fem::Space             &space,
                      const MaterialMap            &materials,
                      const PrescribedDisplacement &prescribed,
                      const mesh::NodalField       &displacement,
@@ -47,7 +47,7 @@ namespace tetradapt::mechanics
             add(cell);
       }
 
-      const DisplacementSpace       &space;
+      const fem::Space              &space;
       const MaterialMap             &materials;
       const PrescribedDisplacement  &prescribed;
       const mesh::NodalField        &displacement;
@@ -156,7 +156,7 @@ namespace tetradapt::mechanics
   } // namespace
 
   Reactions
-  compute_reactions(const DisplacementSpace                 &space,
+  compute_reactions(const fem::Space                        &space,
                     const MaterialMap                       &materials,
                     const PrescribedDisplacement            &prescribed,
                     const std::vector<dealii::Tensor<1, 3>> &forces,

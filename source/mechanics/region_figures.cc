@@ -15,6 +15,9 @@ namespace tetradapt::mechanics
     /** Values that are equal but for this are held for the same. */
     constexpr double alike = 1e-6;
 
+    /** Squares of stresses between these are exact to rounding. */
+    constexpr double smallest_square = 1e-200, largest_square = 1e200;
+
     /** The square of the von Mises stress. */
     double
     square_of_von_mises(const SymmetricTensor<2, 3> &s)
@@ -30,7 +33,7 @@ namespace tetradapt::mechanics
     von_mises(const SymmetricTensor<2, 3> &stress)
     {
       const double square = square_of_von_mises(stress);
-      if (square > 1e-200 && square < 1e200)
+      if (square > smallest_square && square < largest_square)
         return std::sqrt(square);
       // Squares of very small and very large stresses leave the range.
       double scale = 0.;
@@ -39,25 +42,34 @@ namespace tetradapt::mechanics
       return scale == 0. ? 0. : scale * std::sqrt(square_of_von_mises(stress / scale));
     }
 
-    /** Displacement gradients at the four corners of a cell of degree 2. */
+    /**
+     * Displacement gradients at the four corners of a cell of degree 2. At corner v, shape
+     * function i has the gradient (3 or -1) grad b_i, and the one of edge (v, j) has 4 grad b_j;
+     * since the gradients of barycentric coordinates sum to zero, three of them do.
+     */
     std::array<Tensor<2, 3>, 4>
     corner_gradients(const mesh::NodalField            &u,
                      const unsigned int                 cell,
                      const std::array<Tensor<1, 3>, 4> &directions)
     {
-      std::array<Tensor<2, 3>, 4> result;
+      // Of the vertices on the diagonal, of the edges beside it.
+      std::array<std::array<Tensor<1, 3>, 4>, 4> values;
       for (unsigned int i = 0; i < 4; ++i)
-        {
-          const Tensor<1, 3> &value = u.values[u.node(cell, i)];
-          for (unsigned int v = 0; v < 4; ++v)
-            result[v] += outer_product(v == i ? 3. * value : -value, directions[i]);
-        }
+        values[i][i] = u.values[u.node(cell, i)];
       for (unsigned int e = 0; e < 6; ++e)
         {
-          const auto &[i, j]       = mesh::edge_vertices[e];
-          const Tensor<1, 3> value = 4. * u.values[u.node(cell, 4 + e)];
-          result[i] += outer_product(value, directions[j]);
-          result[j] += outer_product(value, directions[i]);
+          const auto &[i, j] = mesh::edge_vertices[e];
+          values[i][j] = values[j][i] = u.values[u.node(cell, 4 + e)];
+        }
+      Tensor<2, 3> of_vertices;
+      for (unsigned int j = 1; j < 4; ++j)
+        of_vertices += outer_product(values[j][j] - values[0][0], directions[j]);
+      std::array<Tensor<2, 3>, 4> result;
+      for (unsigned int v = 0; v < 4; ++v)
+        {
+          result[v] = -of_vertices;
+          for (unsigned int j = 1; j < 4; ++j)
+            result[v] += outer_product(4. * (values[v][j] - values[v][0]), directions[j]);
         }
       return result;
     }
@@ -95,23 +107,29 @@ namespace tetradapt::mechanics
               von_mises(law->stress(thermal ? G - Tensor<2, 3>(mean_thermal_strain(cell)) : G)), 4};
           }
         auto                  gradients = corner_gradients(u, cell, directions);
-        std::array<double, 4> values;
+        std::array<double, 4> values; // squares first: one root a cell is enough
         for (unsigned int v = 0; v < 4; ++v)
           {
             if (thermal)
               gradients[v] -= Tensor<2, 3>(materials.thermal_strain(region, corner_of(cell, v)));
-            // A pressure has no part in the deviator.
-            values[v]
-              = von_mises(mixed ? form.stress(gradients[v], 0.) : law->stress(gradients[v]));
+            values[v] = square(gradients[v]);
+          }
+        double     most      = *std::max_element(values.begin(), values.end());
+        const bool has_range = most > smallest_square && most < largest_square;
+        if (!has_range)
+          {
+            for (unsigned int v = 0; v < 4; ++v)
+              values[v] = von_mises(stress(gradients[v]));
+            most = *std::max_element(values.begin(), values.end());
           }
         // Rounding must not choose among corners whose values are the same.
-        const double most   = *std::max_element(values.begin(), values.end());
+        const double least  = (1. - (has_range ? 2. : 1.) * alike) * most;
         unsigned int corner = 4;
         for (unsigned int v = 0; v < 4; ++v)
-          if (values[v] >= (1. - alike) * most
+          if (values[v] >= least
               && (corner == 4 || is_before(corner_of(cell, v), corner_of(cell, corner))))
             corner = v;
-        return {most, corner};
+        return {has_range ? std::sqrt(most) : most, corner};
       }
 
     private:
@@ -128,9 +146,33 @@ namespace tetradapt::mechanics
           return;
         region = number;
         law    = &materials.law(region);
+        form   = law->pressure_form();
         mixed  = u.pressure != nullptr;
-        if (mixed)
-          form = materials.pressure_form(region);
+      }
+
+      SymmetricTensor<2, 3>
+      stress(const Tensor<2, 3> &gradient) const
+      {
+        // A pressure has no part in the deviator.
+        return mixed ? form->stress(gradient, 0.) : law->stress(gradient);
+      }
+
+      /** The square of the von Mises stress. */
+      double
+      square(const Tensor<2, 3> &G) const
+      {
+        if (!form)
+          return square_of_von_mises(stress(G));
+        // The deviator of the stress is 2 mu times that of the strain.
+        const double xy    = G[0][0] - G[1][1];
+        const double yz    = G[1][1] - G[2][2];
+        const double zx    = G[2][2] - G[0][0];
+        const double a     = G[0][1] + G[1][0];
+        const double b     = G[1][2] + G[2][1];
+        const double c     = G[2][0] + G[0][2];
+        const double twice = 2. * form->shear_modulus;
+        return twice * twice
+               * (0.5 * (xy * xy + yz * yz + zx * zx) + 0.75 * (a * a + b * b + c * c));
       }
 
       /** With the four points of the rule of degree 2, as report::cell_stress(). */
@@ -150,12 +192,12 @@ namespace tetradapt::mechanics
         return mean;
       }
 
-      const mesh::NodalField &u;
-      const MaterialMap      &materials;
-      bool                    thermal, mixed = false;
-      int                     region = 0;
-      const ConstitutiveLaw  *law    = nullptr;
-      PressureForm            form{};
+      const mesh::NodalField     &u;
+      const MaterialMap          &materials;
+      bool                        thermal, mixed = false;
+      int                         region = 0;
+      const ConstitutiveLaw      *law    = nullptr;
+      std::optional<PressureForm> form; ///< of the law, if it has one
     };
 
     /** Numbers the regions of a mesh from 0. */

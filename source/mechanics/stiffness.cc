@@ -126,7 +126,7 @@ namespace tetradapt::mechanics
     /** @p entries: where the matrix has the cell's blocks (see BlockMatrix). */
     template <unsigned int n>
     void
-    add_cell(const DisplacementSpace      &space,
+    add_cell(const fem::Space             &space,
              unsigned int                  cell,
              const CellStiffness<n>       &stiffness,
              const PrescribedDisplacement &prescribed,
@@ -161,7 +161,7 @@ namespace tetradapt::mechanics
 
     template <unsigned int n>
     void
-    assemble_cells(const DisplacementSpace         &space,
+    assemble_cells(const fem::Space                &space,
                    const TangentField              &tangents,
                    const PrescribedDisplacement    &prescribed,
                    const std::vector<unsigned int> &cell_entries,
@@ -181,7 +181,7 @@ namespace tetradapt::mechanics
   } // namespace
 
   LinearSystem
-  assemble(const DisplacementSpace      &space,
+  assemble(const fem::Space             &space,
            const TangentField           &tangents,
            const PrescribedDisplacement &prescribed)
   {
@@ -196,7 +196,7 @@ namespace tetradapt::mechanics
 
   Vector
   right_hand_side(const LinearSystem              &system,
-                  const DisplacementSpace         &space,
+                  const fem::Space                &space,
                   const PrescribedDisplacement    &prescribed,
                   const std::vector<Tensor<1, 3>> &forces)
   {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <sstream>
+#include <utility>
 
 namespace tetradapt::solve
 {
@@ -45,109 +45,91 @@ namespace tetradapt::solve
     return sum(gains.size() - width()) * late / (1. - late);
   }
 
-  namespace
+  GainControl::State
+  GainControl::check(const unsigned int step, const double residual)
   {
-    bool
-    is_done(const IterationLimits &limits, double residual, const EnergyErrorEstimate &estimate)
-    {
-      if (residual <= limits.residual)
-        return true;
-      const auto   squared = estimate.squared_error();
-      const double allowed = std::max(limits.error * limits.error,
-                                      std::pow(limits.relative_error, 2) * estimate.gained());
-      return squared && *squared <= allowed;
-    }
+    lstep  = step;
+    lvalue = residual;
+    if (!std::isfinite(residual))
+      return lcheck = State::failure;
+    lcheck  = decide(step, residual, step == 0 ? 0. : energy * (energy / curvature));
+    started = true;
+    return lcheck;
+  }
 
-    unsigned int
-    predict(const IterationResult     &result,
-            const IterationLimits     &limits,
-            const EnergyErrorEstimate &estimate)
-    {
-      const auto rate = estimate.rate();
-      if (result.residual <= limits.residual || !rate)
-        return result.iterations;
-      // The residual falls like the energy norm of the error.
-      const double more = 2. * std::log(limits.residual / result.residual) / std::log(*rate);
-      return result.iterations + static_cast<unsigned int>(std::min(1e6, std::ceil(more)));
-    }
+  EnergyControl::EnergyControl(const IterationLimits                    &limits,
+                               std::function<void(unsigned int, double)> progress)
+    : limits(limits), progress(std::move(progress))
+  {
+  }
 
-    bool
-    is_hopeless(const IterationResult     &result,
-                const IterationLimits     &limits,
-                const EnergyErrorEstimate &estimate)
-    {
-      // Looked at now and then only: the rate sums over all steps.
-      return limits.give_up_from > 0 && result.iterations >= limits.give_up_from
-             && result.iterations % 10 == 0
-             && predict(result, limits, estimate) > limits.max_iterations;
-    }
-  } // namespace
+  GainControl::State
+  EnergyControl::decide(const unsigned int step, const double residual, const double gain)
+  {
+    const double last  = reached.residual;
+    reached.iterations = step;
+    reached.residual   = residual;
+    if (step == 0)
+      {
+        first_residual    = residual;
+        reached.converged = residual <= limits.residual;
+      }
+    else
+      {
+        // Its own would take another application of the preconditioner.
+        reached.preconditioned_residual
+          = std::sqrt(std::max(0., preconditioned_square())) * (residual / last);
+        estimate.add(gain);
+        reached.converged = is_done();
+        reached.gave_up   = !reached.converged && is_hopeless();
+        if (progress)
+          progress(step, residual / limits.residual);
+      }
+    return reached.converged                                  ? State::success
+           : reached.gave_up || step >= limits.max_iterations ? State::failure
+                                                              : State::iterate;
+  }
+
+  bool
+  EnergyControl::is_done() const
+  {
+    if (reached.residual <= limits.residual)
+      return true;
+    const auto   squared = estimate.squared_error();
+    const double allowed = std::max(limits.error * limits.error,
+                                    std::pow(limits.relative_error, 2) * estimate.gained());
+    return squared && *squared <= allowed;
+  }
+
+  unsigned int
+  EnergyControl::predicted_iterations() const
+  {
+    const auto rate = estimate.rate();
+    if (reached.residual <= limits.residual || !rate)
+      return reached.iterations;
+    // The residual falls like the energy norm of the error.
+    const double more = 2. * std::log(limits.residual / reached.residual) / std::log(*rate);
+    return reached.iterations + static_cast<unsigned int>(std::min(1e6, std::ceil(more)));
+  }
+
+  bool
+  EnergyControl::is_hopeless() const
+  {
+    // Looked at now and then only: the rate sums over all steps.
+    return limits.give_up_from > 0 && reached.iterations >= limits.give_up_from
+           && reached.iterations % 10 == 0 && predicted_iterations() > limits.max_iterations;
+  }
 
   IterationResult
-  conjugate_gradients(const mechanics::LinearOperator<double> &matrix,
-                      const Preconditioner                    &preconditioner,
-                      const Vector                            &right_hand_side,
-                      const IterationLimits                   &limits,
-                      const core::Log                         &log,
-                      Vector                                  &x)
+  EnergyControl::result() const
   {
-    Vector residual(right_hand_side), preconditioned, direction, product;
-    for (Vector *vector : {&preconditioned, &direction, &product})
-      vector->reinit(right_hand_side, true);
-    if (!x.all_zero())
-      {
-        matrix.vmult(product, x);
-        residual -= product;
-      }
-
-    EnergyErrorEstimate estimate;
-    IterationResult     result;
-    result.residual             = residual.l2_norm();
-    const double first_residual = result.residual;
-    result.converged            = result.residual <= limits.residual;
-    double energy               = 0.; // (r, z)
-    while (!result.converged && !result.gave_up && result.iterations < limits.max_iterations
-           && std::isfinite(result.residual))
-      {
-        preconditioner.vmult(preconditioned, residual);
-        const double before = energy;
-        energy              = residual * preconditioned;
-        if (result.iterations == 0)
-          direction = preconditioned;
-        else
-          direction.sadd(energy / before, 1., preconditioned);
-        matrix.vmult(product, direction);
-        const double curvature = direction * product;
-        result.broke_down      = !(energy > 0. && curvature > 0.);
-        if (result.broke_down)
-          break;
-        const double alpha = energy / curvature;
-        x.add(alpha, direction);
-        const double last = result.residual;
-        result.residual   = std::sqrt(residual.add_and_dot(-alpha, product, residual));
-        // Its own would take another application of the preconditioner.
-        result.preconditioned_residual = std::sqrt(energy) * (result.residual / last);
-        ++result.iterations;
-        estimate.add(alpha * energy);
-        result.converged = is_done(limits, result.residual, estimate);
-        result.gave_up   = !result.converged && is_hopeless(result, limits, estimate);
-
-        std::ostringstream text;
-        text << "conjugate gradients, iteration " << result.iterations
-             << ", residual over tolerance " << result.residual / limits.residual;
-        log.progress(text.str());
-      }
-    if (result.iterations == 0 && result.residual > 0.)
-      {
-        preconditioner.vmult(preconditioned, residual);
-        result.preconditioned_residual = std::sqrt(std::max(0., residual * preconditioned));
-      }
-    result.gained = estimate.gained();
+    IterationResult result = reached;
+    result.gained          = estimate.gained();
     // Too few steps for an estimate: the error falls like the residual.
     const double like_residual = first_residual > 0. ? result.residual / first_residual : 0.;
     result.error               = std::sqrt(
       estimate.squared_error().value_or(estimate.gained() * like_residual * like_residual));
-    result.iterations_to_residual = predict(result, limits, estimate);
+    result.iterations_to_residual = predicted_iterations();
     return result;
   }
 } // namespace tetradapt::solve

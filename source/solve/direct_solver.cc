@@ -166,8 +166,7 @@ namespace tetradapt::solve
     std::vector<double> scales;
   };
 
-  DirectSolver::DirectSolver(const mechanics::BlockMatrix       &matrix,
-                             const mechanics::DisplacementSpace &space)
+  DirectSolver::DirectSolver(const mechanics::BlockMatrix &matrix, const fem::Space &space)
     : factors(std::make_unique<Factors>()), communicator(space.communicator()),
       is_first_rank(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
   {

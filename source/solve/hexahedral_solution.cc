@@ -18,13 +18,14 @@ namespace tetradapt::solve
 {
   namespace
   {
-    constexpr unsigned int first_cells   = 40;   ///< of the first mesh, at least
-    constexpr double       growth        = 2.;   ///< of the cells from mesh to mesh
-    constexpr double       closure       = 1.4;  ///< cells cut for each one marked
-    constexpr double       algebraic     = 0.03; ///< error of the solver by that of the mesh
-    constexpr double       first_residue = 1e-6; ///< the same by the solution, at first
-    constexpr double       slowest_rate  = 0.25; ///< s of errors N^-s, at strong singularities
-    constexpr double       usual_rate    = 0.65; ///< at edges
+    constexpr unsigned int first_cells   = 40;    ///< of the first mesh, at least
+    constexpr double       growth        = 2.;    ///< of the cells from mesh to mesh
+    constexpr double       closure       = 1.4;   ///< cells cut for each one marked
+    constexpr double       algebraic     = 0.03;  ///< error of the solver by that of the mesh
+    constexpr double       first_residue = 1e-6;  ///< the same by the solution, at first
+    constexpr double       slowest_rate  = 0.25;  ///< s of errors N^-s, at strong singularities
+    constexpr double       usual_rate    = 0.65;  ///< at edges
+    constexpr double       rounding      = 1e-13; ///< of a residual, by the forces
 
     /** All ranks' lists, one after the other. Collective. */
     std::vector<double>
@@ -106,6 +107,19 @@ namespace tetradapt::solve
       return x;
     }
 
+    /** The stiffness of a level in the space of free unknowns. */
+    struct FreeStiffness
+    {
+      const HexahedralLevel &level;
+
+      void
+      vmult(Vector &forces, const Vector &displacement) const
+      {
+        level.stiffness.vmult(forces, displacement);
+        level.supports.set_zero(forces);
+      }
+    };
+
     /** Conjugate gradients for what is missing to @p x, until the estimated error in the
      * energy norm is below @p error, or, if that is zero, below first_residue of what the
      * iteration has found. */
@@ -118,45 +132,27 @@ namespace tetradapt::solve
             const core::Log       &log,
             Vector                &x)
     {
-      Vector residual(level.space.layout), z(residual), direction(residual), product(residual);
-      level.stiffness.vmult(product, x);
-      const double scale = std::max(forces.l2_norm(), product.l2_norm());
-      residual           = forces;
-      residual -= product;
+      Vector residual(level.space.layout), correction(residual);
+      level.stiffness.vmult(residual, x);
+      IterationLimits limits;
+      limits.residual       = rounding * std::max(forces.l2_norm(), residual.l2_norm());
+      limits.error          = error;
+      limits.relative_error = error > 0. ? 0. : first_residue;
+      limits.max_iterations = max_iterations;
+      residual.sadd(-1., 1., forces);
       level.supports.set_zero(residual);
-      EnergyErrorEstimate estimate;
-      double              energy = 0., found = 0.;
-      unsigned int        n = 0;
-      for (double norm = residual.l2_norm(); norm > 1e-13 * scale;)
-        {
-          if (n == max_iterations || !std::isfinite(norm))
-            throw core::NumericalError(
-              "Conjugate gradients did not converge on the reference's hexahedra in "
-              + std::to_string(n)
-              + " iterations. Look for materials of very different stiffness or a Poisson ratio "
-                "close to 0.5; or raise Solver/Maximum iterations.");
-          preconditioner.vmult(z, residual);
-          const double before = energy;
-          energy              = residual * z;
-          if (n == 0)
-            direction = z;
-          else
-            direction.sadd(energy / before, 1., z);
-          level.stiffness.vmult(product, direction);
-          level.supports.set_zero(product);
-          const double alpha = energy / (direction * product);
-          x.add(alpha, direction);
-          norm = std::sqrt(residual.add_and_dot(-alpha, product, residual));
-          estimate.add(alpha * energy);
-          ++n;
-          const auto left = estimate.squared_error();
-          found += alpha * energy;
-          const double allowed = error > 0. ? error * error : first_residue * first_residue * found;
-          if (left && *left <= allowed)
-            break;
-          log.progress("reference: conjugate gradients, iteration " + std::to_string(n));
-        }
-      return n;
+      EnergyControl control(limits, [&](const unsigned int step, double) {
+        log.progress("reference: conjugate gradients, iteration " + std::to_string(step));
+      });
+      if (conjugate_gradients(FreeStiffness{level}, preconditioner, residual, control, correction)
+          != Ending::converged)
+        throw core::NumericalError(
+          "Conjugate gradients did not converge on the reference's hexahedra in "
+          + std::to_string(control.result().iterations)
+          + " iterations. Look for materials of very different stiffness or a Poisson ratio "
+            "close to 0.5; or raise Solver/Maximum iterations.");
+      x += correction;
+      return control.result().iterations;
     }
 
     /** By what factor the number of cells is to grow: less where the tolerance is near. */

@@ -22,8 +22,6 @@ namespace tetradapt::solve
     /** Least energy of a solution by that of what was added to the first iterate. */
     constexpr double least_energy = 1e-12;
 
-    /** Iterations in vain after which a preconditioner in single precision is suspected. */
-    constexpr unsigned int patience = 200;
 
     /** Where a factorisation can take over: the iteration from which a prediction of the
      * remaining ones counts, and the largest number of unknowns. */
@@ -88,7 +86,7 @@ namespace tetradapt::solve
   {
     if (space.degree() == 1)
       return make_amg<Number>(assembled->matrix, space, prescribed, scale);
-    coarse_space      = std::make_unique<mechanics::DisplacementSpace>(model.partition, 1, nullptr);
+    coarse_space      = std::make_unique<fem::Space>(space.triangulation(), 1, nullptr);
     const auto coarse = mechanics::assemble(*coarse_space, model.tangents, prescribed);
     return make_p_multigrid<Number>(
       std::make_unique<mechanics::MatrixFreeStiffness<Number>>(
@@ -213,15 +211,13 @@ namespace tetradapt::solve
     for (double excess = 2.; excess > 1.;)
       {
         limits.max_iterations = parameters.max_iterations - result.iterations; // in total
-        IterationResult step
-          = conjugate_gradients(matrix(), *preconditioner, right_hand_side, limits, log, x);
+        IterationResult step  = iterate_once(right_hand_side, limits, x);
         result.iterations += step.iterations;
         result.iterations_to_residual
           = result.iterations + step.iterations_to_residual - step.iterations;
         result.algebraic_error = step.error;
         // Elements with almost no volume can be too much for single precision.
-        if (!step.converged && is_single && result.iterations < parameters.max_iterations
-            && (step.broke_down || step.gave_up || step.iterations >= patience))
+        if (!step.converged && is_single && result.iterations < parameters.max_iterations)
           {
             log.progress("building the preconditioner in double precision");
             precondition_in_double();
@@ -242,6 +238,30 @@ namespace tetradapt::solve
         step.gained = gained;
         excess = hidden_error(step, stop, right_hand_side, x) / (error_by_residual * tolerance);
         limits.residual = std::min(limits.residual, step.residual) / std::max(2., 2. * excess);
+      }
+    return result;
+  }
+
+  IterationResult
+  LinearSolver::iterate_once(const Vector          &right_hand_side,
+                             const IterationLimits &limits,
+                             Vector                &x) const
+  {
+    EnergyControl control(limits, [this](const unsigned int step, const double relative) {
+      std::ostringstream text;
+      text << "conjugate gradients, iteration " << step << ", residual over tolerance " << relative;
+      log.progress(text.str());
+    });
+    conjugate_gradients(matrix(), *preconditioner, right_hand_side, control, x);
+    IterationResult result = control.result();
+    if (result.iterations == 0 && result.residual > 0.)
+      {
+        // No step has told what the residual means for the error.
+        Vector residual(right_hand_side), preconditioned(right_hand_side);
+        matrix().vmult(residual, x);
+        residual.sadd(-1., 1., right_hand_side);
+        preconditioner->vmult(preconditioned, residual);
+        result.preconditioned_residual = std::sqrt(std::max(0., residual * preconditioned));
       }
     return result;
   }

@@ -5,8 +5,6 @@
 
 namespace tetradapt::solve
 {
-  using mechanics::DisplacementSpace;
-
   namespace
   {
 
@@ -16,8 +14,8 @@ namespace tetradapt::solve
     class Transfer
     {
     public:
-      Transfer(const DisplacementSpace                 &fine,
-               const DisplacementSpace                 &coarse,
+      Transfer(const fem::Space                        &fine,
+               const fem::Space                        &coarse,
                const mechanics::PrescribedDisplacement &prescribed)
         : parents(fine.n_owned_nodes()), fixed(fine.n_owned_nodes())
       {
@@ -82,8 +80,8 @@ namespace tetradapt::solve
       using Matrix = mechanics::MatrixFreeStiffness<Number>;
 
       PMultigrid(std::unique_ptr<Matrix>                     fine,
-                 const DisplacementSpace                    &fine_space,
-                 const DisplacementSpace                    &coarse_space,
+                 const fem::Space                           &fine_space,
+                 const fem::Space                           &coarse_space,
                  const mechanics::PrescribedDisplacement    &prescribed,
                  std::unique_ptr<ApproximateInverse<Number>> coarse)
         : matrix(std::move(fine)), transfer(fine_space, coarse_space, prescribed),
@@ -118,8 +116,8 @@ namespace tetradapt::solve
   template <typename Number>
   std::unique_ptr<ApproximateInverse<Number>>
   make_p_multigrid(std::unique_ptr<mechanics::MatrixFreeStiffness<Number>> fine,
-                   const DisplacementSpace                                &fine_space,
-                   const DisplacementSpace                                &coarse_space,
+                   const fem::Space                                       &fine_space,
+                   const fem::Space                                       &coarse_space,
                    const mechanics::PrescribedDisplacement                &prescribed,
                    std::unique_ptr<ApproximateInverse<Number>>             coarse_solver)
   {
@@ -129,14 +127,14 @@ namespace tetradapt::solve
 
   template std::unique_ptr<ApproximateInverse<float>>
   make_p_multigrid(std::unique_ptr<mechanics::MatrixFreeStiffness<float>>,
-                   const DisplacementSpace &,
-                   const DisplacementSpace &,
+                   const fem::Space &,
+                   const fem::Space &,
                    const mechanics::PrescribedDisplacement &,
                    std::unique_ptr<ApproximateInverse<float>>);
   template std::unique_ptr<ApproximateInverse<double>>
   make_p_multigrid(std::unique_ptr<mechanics::MatrixFreeStiffness<double>>,
-                   const DisplacementSpace &,
-                   const DisplacementSpace &,
+                   const fem::Space &,
+                   const fem::Space &,
                    const mechanics::PrescribedDisplacement &,
                    std::unique_ptr<ApproximateInverse<double>>);
 } // namespace tetradapt::solve

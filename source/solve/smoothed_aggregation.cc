@@ -217,8 +217,7 @@ namespace tetradapt::solve
     };
 
     std::vector<NodeModes<3>>
-    rigid_modes(const mechanics::DisplacementSpace      &space,
-                const mechanics::PrescribedDisplacement &prescribed)
+    rigid_modes(const fem::Space &space, const mechanics::PrescribedDisplacement &prescribed)
     {
       const auto               &mesh   = space.tet_mesh();
       const auto                box    = mesh::bounding_box(mesh);
@@ -243,7 +242,7 @@ namespace tetradapt::solve
   template <typename Number>
   std::unique_ptr<ApproximateInverse<Number>>
   make_amg(const mechanics::BlockMatrix            &matrix,
-           const mechanics::DisplacementSpace      &space,
+           const fem::Space                        &space,
            const mechanics::PrescribedDisplacement &prescribed,
            const double                             scale)
   {
@@ -255,12 +254,12 @@ namespace tetradapt::solve
 
   template std::unique_ptr<ApproximateInverse<float>>
   make_amg(const mechanics::BlockMatrix &,
-           const mechanics::DisplacementSpace &,
+           const fem::Space &,
            const mechanics::PrescribedDisplacement &,
            double);
   template std::unique_ptr<ApproximateInverse<double>>
   make_amg(const mechanics::BlockMatrix &,
-           const mechanics::DisplacementSpace &,
+           const fem::Space &,
            const mechanics::PrescribedDisplacement &,
            double);
 } // namespace tetradapt::solve

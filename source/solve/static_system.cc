@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/solve/static_system.h"
+#include "tetradapt/fem/triangulation.h"
 
 #include "tetradapt/mechanics/loads.h"
 #include "tetradapt/solve/energies.h"
@@ -16,7 +17,6 @@ namespace tetradapt::solve
 {
   namespace
   {
-    using mechanics::DisplacementSpace;
     using NodalValues = std::vector<dealii::Tensor<1, 3>>;
 
     std::shared_ptr<const mesh::EdgeTable>
@@ -27,7 +27,7 @@ namespace tetradapt::solve
     }
 
     double
-    work(const DisplacementSpace &space, const NodalValues &forces, const NodalValues &displacement)
+    work(const fem::Space &space, const NodalValues &forces, const NodalValues &displacement)
     {
       double sum = 0.;
       for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
@@ -51,7 +51,7 @@ namespace tetradapt::solve
 
     /** Sum of the lengths of @p forces at the free unknowns. */
     double
-    free_magnitude(const DisplacementSpace                 &space,
+    free_magnitude(const fem::Space                        &space,
                    const mechanics::PrescribedDisplacement &prescribed,
                    const Vector                            &forces)
     {
@@ -82,9 +82,9 @@ namespace tetradapt::solve
         kept(materials.is_mixed()
                ? std::make_unique<mechanics::MaterialMap>(kept_scene(scene), *mesh)
                : nullptr),
-        partition(*mesh, communicator), tangents(kept ? *kept : materials, *mesh)
+        triangulation(*mesh, communicator), tangents(kept ? *kept : materials, *mesh)
     {
-      space = std::make_unique<DisplacementSpace>(partition, degree, edges.get());
+      space = std::make_unique<fem::Space>(triangulation, degree, edges.get());
       log.progress("assembling " + std::to_string(space->n_dofs()) + " unknowns");
       mechanics::NodalLoads loads
         = mechanics::assemble_loads(scene, kept ? *kept : materials, *space);
@@ -92,7 +92,7 @@ namespace tetradapt::solve
       load_totals = std::move(loads.totals);
       for (const auto &total : load_totals)
         load_resultants.push_back(total.resultant);
-      solver = std::make_unique<LinearSolver>(LinearModel{partition, *space, tangents, prescribed},
+      solver = std::make_unique<LinearSolver>(LinearModel{*space, tangents, prescribed},
                                               scene.solver,
                                               log);
       if (materials.is_mixed())
@@ -129,9 +129,9 @@ namespace tetradapt::solve
     mechanics::PrescribedDisplacement      prescribed;
     /** Mixed form only: the materials without what the pressure carries. */
     std::unique_ptr<mechanics::MaterialMap> kept;
-    mechanics::MeshPartition                partition;
+    fem::Triangulation                      triangulation;
     mechanics::TangentField                 tangents;
-    std::unique_ptr<DisplacementSpace>      space;
+    std::unique_ptr<fem::Space>             space;
     NodalValues                             forces; ///< of the loads, on the nodes owned
     std::vector<mechanics::LoadTotal>       load_totals;
     std::vector<mechanics::Resultant>       load_resultants; ///< of load_totals
@@ -154,8 +154,8 @@ namespace tetradapt::solve
   StaticSolution
   StaticSystem::solve(const mesh::NodalField *start, const Stop &stop) const
   {
-    const DisplacementSpace &space = *data->space;
-    StaticSolution           solution;
+    const fem::Space &space = *data->space;
+    StaticSolution    solution;
     solution.displacement
       = std::make_shared<mesh::NodalField>(data->mesh, data->degree, data->edges);
     solution.n_dofs = space.n_dofs();
@@ -230,8 +230,8 @@ namespace tetradapt::solve
   NodalValues
   StaticSystem::nodal_forces() const
   {
-    const DisplacementSpace &space = *data->space;
-    Vector                   owned(space.vector_layout());
+    const fem::Space &space = *data->space;
+    Vector            owned(space.vector_layout());
     for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
       for (unsigned int c = 0; c < 3; ++c)
         owned.local_element(3 * node + c) = data->forces[space.field_node(node)][c];

@@ -4,6 +4,7 @@
 // 1e-6 for smooth ones, 1e-4 for jumps on faces, 1e-3 for jumps in cells, on every mesh. In
 // Release only: millions of values take minutes in Debug.
 
+#include "tetradapt/fem/triangulation.h"
 #include "tetradapt/mechanics/loads.h"
 
 #include "bodies.h"
@@ -43,13 +44,11 @@ namespace
     scene.loads                          = {load};
     const auto body                      = box(Point<3>(1, 1, 1), {{n, n, n}});
     select(*body, scene);
-    const mechanics::MaterialMap       materials(scene, *body);
-    const mechanics::MeshPartition     partition(*body, MPI_COMM_WORLD);
-    const mesh::NodalField             field(body, degree);
-    const mechanics::DisplacementSpace space(partition,
-                                             degree,
-                                             degree == 2 ? &field.edges() : nullptr);
-    auto                               loads = mechanics::assemble_loads(scene, materials, space);
+    const mechanics::MaterialMap materials(scene, *body);
+    const fem::Triangulation     triangulation(*body, MPI_COMM_WORLD);
+    const mesh::NodalField       field(body, degree);
+    const fem::Space space(triangulation, degree, degree == 2 ? &field.edges() : nullptr);
+    auto             loads = mechanics::assemble_loads(scene, materials, space);
     if (load.type != LoadType::temperature)
       return loads.totals[0];
     // A temperature's forces do the work C : alpha int T on a strain: in z, E / (1 - 2 nu).

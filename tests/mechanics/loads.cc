@@ -4,6 +4,7 @@
 // number of ranks.
 
 #include "tetradapt/mechanics/loads.h"
+#include "tetradapt/fem/triangulation.h"
 
 #include "bodies.h"
 
@@ -38,13 +39,11 @@ namespace
       : field(body, degree)
     {
       select(*body, scene);
-      const mechanics::MaterialMap       materials(scene, *body);
-      const mechanics::MeshPartition     partition(*body, MPI_COMM_WORLD);
-      const mechanics::DisplacementSpace space(partition,
-                                               degree,
-                                               degree == 2 ? &field.edges() : nullptr);
-      const mechanics::NodalLoads        loads = mechanics::assemble_loads(scene, materials, space);
-      const Forces                      &local = loads.forces;
+      const mechanics::MaterialMap materials(scene, *body);
+      const fem::Triangulation     triangulation(*body, MPI_COMM_WORLD);
+      const fem::Space space(triangulation, degree, degree == 2 ? &field.edges() : nullptr);
+      const mechanics::NodalLoads loads = mechanics::assemble_loads(scene, materials, space);
+      const Forces               &local = loads.forces;
       forces.resize(field.n_nodes());
       for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
         forces[space.field_node(node)] = local[space.field_node(node)];

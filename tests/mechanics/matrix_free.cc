@@ -3,6 +3,7 @@
 // The matrix-free stiffness equals the assembled one, for every form of tangents, with
 // mixed supports, two materials and cells of all shapes, on one rank and on two.
 
+#include "tetradapt/fem/triangulation.h"
 #include "tetradapt/mechanics/matrix_free_stiffness.h"
 #include "tetradapt/mechanics/stiffness.h"
 
@@ -28,7 +29,7 @@ namespace
   /** Something on every unknown, the same whatever the number of ranks. */
   template <typename Number>
   void
-  fill(const DisplacementSpace &space, VectorOf<Number> &x)
+  fill(const fem::Space &space, VectorOf<Number> &x)
   {
     for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
       for (unsigned int c = 0; c < 3; ++c)
@@ -51,7 +52,7 @@ namespace
   template <typename Number>
   void
   compare(const std::string            &name,
-          const DisplacementSpace      &space,
+          const fem::Space             &space,
           const TangentField           &tangents,
           const PrescribedDisplacement &prescribed,
           const double                  tolerance)
@@ -112,11 +113,11 @@ main(int argc, char *argv[])
                                 support("rail", "y < 1e-9 && x > 1", "y", {{"0", "0.1", "0"}})};
   const auto body            = box(Point<3>(3, 1, 1), {{7, 3, 3}}, 0.3, 1.5);
   select(*body, scene);
-  const MaterialMap       materials(scene, *body);
-  const MeshPartition     partition(*body, MPI_COMM_WORLD);
-  const mesh::EdgeTable   edges = mesh::build_edges(*body);
-  const DisplacementSpace space(partition, 2, &edges);
-  const auto              prescribed = prescribe(scene.supports, *body, &edges);
+  const MaterialMap        materials(scene, *body);
+  const fem::Triangulation triangulation(*body, MPI_COMM_WORLD);
+  const mesh::EdgeTable    edges = mesh::build_edges(*body);
+  const fem::Space         space(triangulation, 2, &edges);
+  const auto               prescribed = prescribe(scene.supports, *body, &edges);
 
   const TangentField at_rest(materials, *body);
   compare<double>("one isotropic tangent a region", space, at_rest, prescribed, 1e-13);
@@ -136,9 +137,9 @@ main(int argc, char *argv[])
   compare<double>("one a point", space, TangentField(tensors, four, 4), prescribed, 1e-13);
 
   // The matrix of degree 1 is that of degree 2 on linear displacements.
-  const DisplacementSpace linear(partition, 1, nullptr);
-  const TangentField      tangents(tensors, four, 4);
-  PrescribedDisplacement  free_nodes;
+  const fem::Space       linear(triangulation, 1, nullptr);
+  const TangentField     tangents(tensors, four, 4);
+  PrescribedDisplacement free_nodes;
   free_nodes.fixed.assign(space.n_field_nodes(), 0);
   free_nodes.values.resize(space.n_field_nodes());
   const LinearSystem                coarse = assemble(linear, tangents, free_nodes);

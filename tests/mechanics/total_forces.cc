@@ -3,6 +3,7 @@
 // Total forces and moments are those that the scene gives, on straight and projected meshes, as is
 // the centrifugal force of bodies that turn; on any number of ranks.
 
+#include "tetradapt/fem/triangulation.h"
 #include "tetradapt/mechanics/loads.h"
 #include "tetradapt/mechanics/surface_loads.h"
 #include "tetradapt/mesh/boundary_projection.h"
@@ -72,12 +73,10 @@ namespace
   total_on(const std::shared_ptr<mesh::TetMesh> &body, const scene::Scene &scene)
   {
     select(*body, scene);
-    const mechanics::MaterialMap       materials(scene, *body);
-    const mechanics::MeshPartition     partition(*body, MPI_COMM_WORLD);
-    const mesh::NodalField             field(body, degree);
-    const mechanics::DisplacementSpace space(partition,
-                                             degree,
-                                             degree == 2 ? &field.edges() : nullptr);
+    const mechanics::MaterialMap materials(scene, *body);
+    const fem::Triangulation     triangulation(*body, MPI_COMM_WORLD);
+    const mesh::NodalField       field(body, degree);
+    const fem::Space space(triangulation, degree, degree == 2 ? &field.edges() : nullptr);
     return mechanics::assemble_loads(scene, materials, space).totals.at(0);
   }
 

@@ -4,6 +4,7 @@
 // nobody refused them before; soft, long and flat ones, which are solved; and iterations
 // that are too many.
 
+#include "tetradapt/fem/triangulation.h"
 #include "tetradapt/solve/linear_solver.h"
 
 #include "solving.h"
@@ -34,15 +35,13 @@ namespace
     for (unsigned int p = 0; p < body->n_points(); ++p)
       if (is_held(body->points[p]))
         prescribed.fixed[p] = 7;
-    const mechanics::MeshPartition     partition(*body, MPI_COMM_WORLD);
-    const mechanics::TangentField      tangents(materials, *body);
-    const mechanics::DisplacementSpace space(partition, degree, degree == 2 ? &edges : nullptr);
+    const fem::Triangulation      triangulation(*body, MPI_COMM_WORLD);
+    const mechanics::TangentField tangents(materials, *body);
+    const fem::Space              space(triangulation, degree, degree == 2 ? &edges : nullptr);
     try
       {
         const core::Log           log;
-        const solve::LinearSolver solver({partition, space, tangents, prescribed},
-                                         scene.solver,
-                                         log);
+        const solve::LinearSolver solver({space, tangents, prescribed}, scene.solver, log);
         std::vector<Tensor<1, 3>> forces(space.n_field_nodes());
         for (unsigned int p = 0; p < body->n_points(); ++p)
           forces[p][2] = -1.; // not in balance

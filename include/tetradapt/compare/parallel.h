@@ -28,6 +28,8 @@ namespace tetradapt::compare
   /** Sums (or takes the largest) over the ranks, entry by entry. Collective. */
   void
   sum_over_ranks(std::vector<double> &values, MPI_Comm communicator);
+  void
+  sum_over_ranks(double *values, std::size_t n, MPI_Comm communicator);
   double
   max_over_ranks(double value, MPI_Comm communicator);
 

@@ -64,6 +64,8 @@ namespace tetradapt::estimate
     solve(const Values &forces, double tolerance) const;
 
   private:
+    struct FreeStiffness;
+    struct AdditivePreconditioner;
     void
     precondition(const Values &residual, Values &result) const;
 
@@ -71,7 +73,7 @@ namespace tetradapt::estimate
     EnrichedSpace                     enriched_space;
     mechanics::PrescribedDisplacement prescribed;     ///< of the surplus
     Values                            loads;          ///< F(phi_i)
-    mutable Values                    block_inverses; ///< made when they are first asked for
+    mutable std::vector<double>       block_inverses; ///< made when they are first asked for
     mutable std::vector<Tensor<1, 3>> nodal_residual, nodal_result; ///< work space
   };
 } // namespace tetradapt::estimate

@@ -5,6 +5,8 @@
 #include "tetradapt/estimate/hierarchical_surplus.h"
 #include "tetradapt/mechanics/material_map.h"
 
+#include <deal.II/lac/vector.h>
+
 #include <mpi.h>
 
 namespace tetradapt::estimate
@@ -22,7 +24,7 @@ namespace tetradapt::estimate
   class EnrichedSpace
   {
   public:
-    using Values = std::vector<double>;
+    using Values = dealii::Vector<double>;
 
     /** For the space of @p field. Reads the tangents at rest of @p materials. */
     EnrichedSpace(const mesh::NodalField       &field,
@@ -72,7 +74,7 @@ namespace tetradapt::estimate
 
     /** a(psi, psi) of every function of the surplus: 3x3 blocks of components, row by
      * row. Collective. */
-    Values
+    std::vector<double>
     surplus_diagonal() const;
 
   private:

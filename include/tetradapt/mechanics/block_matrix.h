@@ -27,7 +27,7 @@ namespace tetradapt::mechanics
   };
 
   /**
-   * A sparse matrix of 3x3 blocks on the nodes of a DisplacementSpace: complete
+   * A sparse matrix of 3x3 blocks on the nodes of a fem::Space: complete
    * rows for the owned nodes, columns in local numbering (owned nodes, then
    * ghosts). One index a block instead of nine keeps the product with a vector
    * bound by the values alone.
@@ -41,7 +41,7 @@ namespace tetradapt::mechanics
      * @param cell_entries if not null, gets where the blocks of cells go: that of nodes i and
      *        j of the k-th of the space's touching cells, which have n nodes each, to entry
      *        (*cell_entries)[(k n + i) n + j]; numbers::invalid_unsigned_int if i is a ghost. */
-    explicit BlockMatrix(const DisplacementSpace   &space,
+    explicit BlockMatrix(const fem::Space          &space,
                          std::vector<unsigned int> *cell_entries = nullptr);
 
     unsigned int

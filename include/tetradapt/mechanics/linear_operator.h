@@ -2,15 +2,16 @@
 #ifndef tetradapt_mechanics_linear_operator_h
 #define tetradapt_mechanics_linear_operator_h
 
-#include "tetradapt/mechanics/displacement_space.h"
+#include "tetradapt/fem/space.h"
 
 namespace tetradapt::mechanics
 {
+  using fem::Vector;
   template <typename Number>
   using VectorOf = dealii::LinearAlgebra::distributed::Vector<Number>;
 
   /**
-   * A square matrix on the unknowns of a DisplacementSpace that can be multiplied with a
+   * A square matrix on the unknowns of a fem::Space that can be multiplied with a
    * vector, whether its entries are stored or not.
    */
   template <typename Number>

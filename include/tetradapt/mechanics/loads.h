@@ -2,7 +2,7 @@
 #ifndef tetradapt_mechanics_loads_h
 #define tetradapt_mechanics_loads_h
 
-#include "tetradapt/mechanics/displacement_space.h"
+#include "tetradapt/fem/space.h"
 #include "tetradapt/mechanics/material_map.h"
 #include "tetradapt/mechanics/resultant.h"
 
@@ -54,9 +54,7 @@ namespace tetradapt::mechanics
    * Collective.
    */
   NodalLoads
-  assemble_loads(const scene::Scene      &scene,
-                 const MaterialMap       &materials,
-                 const DisplacementSpace &space);
+  assemble_loads(const scene::Scene &scene, const MaterialMap &materials, const fem::Space &space);
 } // namespace tetradapt::mechanics
 
 #endif

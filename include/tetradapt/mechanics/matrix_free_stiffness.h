@@ -32,7 +32,7 @@ namespace tetradapt::mechanics
      * @param scale multiplies the matrix; single precision needs entries near one.
      * Keeps a reference to @p space, whose degree must be 2. No communication.
      */
-    MatrixFreeStiffness(const DisplacementSpace      &space,
+    MatrixFreeStiffness(const fem::Space             &space,
                         const TangentField           &tangents,
                         const PrescribedDisplacement &prescribed,
                         double                        scale = 1.);
@@ -69,7 +69,7 @@ namespace tetradapt::mechanics
     void
     add_forces(unsigned int begin, unsigned int end, const Number *x, Number *y) const;
 
-    const DisplacementSpace        &space;
+    const fem::Space               &space;
     std::vector<unsigned int>       fixed; ///< constrained local unknowns, ascending
     unsigned int                    n_batches     = 0;
     unsigned int                    n_own_batches = 0; ///< these, first, have no ghosts

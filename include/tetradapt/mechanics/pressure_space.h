@@ -2,24 +2,25 @@
 #ifndef tetradapt_mechanics_pressure_space_h
 #define tetradapt_mechanics_pressure_space_h
 
-#include "tetradapt/mechanics/displacement_space.h"
+#include "tetradapt/fem/space.h"
 
 namespace tetradapt::mechanics
 {
+  using fem::Vector;
   /**
    * The pressures of degree 1 that belong to displacements of degree 2 (Taylor and Hood), and the
    * numbering of their nodes over the ranks. A node belongs to the rank that owns the
-   * displacement at its vertex. As in DisplacementSpace, local nodes are first those that the
+   * displacement at its vertex. As in fem::Space, local nodes are first those that the
    * rank owns, then ghosts.
    */
   class PressureSpace
   {
   public:
     /** Collective. @p displacements must have degree 2 and outlive this object. */
-    PressureSpace(const DisplacementSpace                   &displacements,
+    PressureSpace(const fem::Space                          &displacements,
                   std::shared_ptr<const mesh::PressureNodes> nodes);
 
-    const DisplacementSpace &
+    const fem::Space &
     displacements() const
     {
       return displacement_space;
@@ -68,7 +69,7 @@ namespace tetradapt::mechanics
     gather(const Vector &vector, std::vector<double> &values) const;
 
   private:
-    const DisplacementSpace                                   &displacement_space;
+    const fem::Space                                          &displacement_space;
     std::shared_ptr<const mesh::PressureNodes>                 pressure_nodes;
     std::vector<unsigned int>                                  field_nodes, local_nodes;
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;

@@ -2,7 +2,7 @@
 #ifndef tetradapt_mechanics_reactions_h
 #define tetradapt_mechanics_reactions_h
 
-#include "tetradapt/mechanics/displacement_space.h"
+#include "tetradapt/fem/space.h"
 #include "tetradapt/mechanics/material_map.h"
 #include "tetradapt/mechanics/resultant.h"
 #include "tetradapt/mechanics/supports.h"
@@ -41,7 +41,7 @@ namespace tetradapt::mechanics
    * Collective; the same on every rank.
    */
   Reactions
-  compute_reactions(const DisplacementSpace                 &space,
+  compute_reactions(const fem::Space                        &space,
                     const MaterialMap                       &materials,
                     const PrescribedDisplacement            &prescribed,
                     const std::vector<dealii::Tensor<1, 3>> &forces,

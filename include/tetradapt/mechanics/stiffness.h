@@ -13,7 +13,7 @@ namespace tetradapt::mechanics
   struct LinearSystem
   {
     /** All zero; @p cell_entries as in BlockMatrix. */
-    explicit LinearSystem(const DisplacementSpace   &space,
+    explicit LinearSystem(const fem::Space          &space,
                           std::vector<unsigned int> *cell_entries = nullptr)
       : matrix(space, cell_entries)
     {
@@ -31,7 +31,7 @@ namespace tetradapt::mechanics
    * communication: each rank assembles the complete rows of its nodes.
    */
   LinearSystem
-  assemble(const DisplacementSpace      &space,
+  assemble(const fem::Space             &space,
            const TangentField           &tangents,
            const PrescribedDisplacement &prescribed);
 
@@ -40,7 +40,7 @@ namespace tetradapt::mechanics
    * diagonal entry times the prescribed value. */
   Vector
   right_hand_side(const LinearSystem                      &system,
-                  const DisplacementSpace                 &space,
+                  const fem::Space                        &space,
                   const PrescribedDisplacement            &prescribed,
                   const std::vector<dealii::Tensor<1, 3>> &forces);
 } // namespace tetradapt::mechanics

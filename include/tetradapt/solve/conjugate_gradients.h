@@ -2,10 +2,12 @@
 #ifndef tetradapt_solve_conjugate_gradients_h
 #define tetradapt_solve_conjugate_gradients_h
 
-#include "tetradapt/core/log.h"
-#include "tetradapt/mechanics/block_matrix.h"
-#include "tetradapt/solve/preconditioners.h"
+#include <deal.II/lac/solver_cg.h>
+#include <deal.II/lac/solver_control.h>
+#include <deal.II/lac/vector_memory.h>
 
+#include <cmath>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -76,8 +78,6 @@ namespace tetradapt::solve
   struct IterationResult
   {
     bool converged = false;
-    /** The preconditioner or the matrix was not positive, to rounding. */
-    bool broke_down = false;
     /** Ended early by IterationLimits::give_up_from. */
     bool         gave_up    = false;
     unsigned int iterations = 0;
@@ -92,15 +92,195 @@ namespace tetradapt::solve
     unsigned int iterations_to_residual = 0;
   };
 
-  /** Preconditioned conjugate gradients for matrix x = right-hand side from @p x on.
-   * Collective. */
-  IterationResult
-  conjugate_gradients(const mechanics::LinearOperator<double> &matrix,
-                      const Preconditioner                    &preconditioner,
-                      const Vector                            &right_hand_side,
-                      const IterationLimits                   &limits,
-                      const core::Log                         &log,
-                      Vector                                  &x);
+  /**
+   * A control of conjugate gradients that knows what each step gains: alpha_k (r_k, z_k) =
+   * (r_k, z_k)^2 / (p_k, A p_k). deal.II's solver tells beta_k = (r_k, z_k) / (r_k-1, z_k-1); the
+   * rest is seen by what conjugate_gradients() lays around matrix and preconditioner.
+   */
+  class GainControl : public dealii::SolverControl
+  {
+  public:
+    /** Ends with failure where the residual is not finite. */
+    State
+    check(unsigned int step, double residual) final;
+
+    /** For the solver: (r_0, z_0). */
+    void
+    set_first_energy(const double value)
+    {
+      energy = value;
+    }
+    /** For the solver. */
+    void
+    multiply_energy(const double beta)
+    {
+      energy *= beta;
+    }
+    /** For the solver: (p, A p) of the step that follows. */
+    void
+    set_curvature(const double value)
+    {
+      curvature = value;
+    }
+    /** For the solver: the first residual is known, and steps follow. */
+    bool
+    is_started() const
+    {
+      return started;
+    }
+
+  protected:
+    /** Decides after each step; @p gain is zero for the first residual, with step = 0. */
+    virtual State
+    decide(unsigned int step, double residual, double gain)
+      = 0;
+
+    /** (r, z) of the last step. */
+    double
+    preconditioned_square() const
+    {
+      return energy;
+    }
+
+  private:
+    double energy = 0., curvature = 0.;
+    bool   started = false;
+  };
+
+  /** Ends conjugate gradients by IterationLimits, and tells how far they have come. */
+  class EnergyControl : public GainControl
+  {
+  public:
+    /** @param progress is told the residual by the allowed one after each step; may be empty. */
+    explicit EnergyControl(const IterationLimits                                  &limits,
+                           std::function<void(unsigned int step, double relative)> progress = {});
+
+    /** What was reached. */
+    IterationResult
+    result() const;
+
+  protected:
+    State
+    decide(unsigned int step, double residual, double gain) override;
+
+  private:
+    bool
+    is_done() const;
+    /** How many iterations the residual needs. */
+    unsigned int
+    predicted_iterations() const;
+    bool
+    is_hopeless() const;
+
+    IterationLimits                           limits;
+    std::function<void(unsigned int, double)> progress;
+    EnergyErrorEstimate                       estimate;
+    IterationResult                           reached;
+    double                                    first_residual = 0.;
+  };
+
+  /** How conjugate gradients ended. */
+  enum class Ending
+  {
+    converged,
+    stopped,      ///< by the control
+    not_positive, ///< the matrix is not, to rounding, along a direction
+    not_finite
+  };
+
+  namespace internal
+  {
+    /** Thrown before a step that cannot be made. */
+    struct NoStep
+    {
+      Ending reason;
+    };
+
+    /** Tells a control the curvature along the directions that a matrix is multiplied with. */
+    template <typename Matrix>
+    struct ObservedMatrix
+    {
+      const Matrix &matrix;
+      GainControl  &control;
+
+      template <typename VectorType>
+      void
+      vmult(VectorType &destination, const VectorType &source) const
+      {
+        matrix.vmult(destination, source);
+        if (!control.is_started()) // the first residual
+          return;
+        const double curvature = source * destination;
+        if (!std::isfinite(curvature))
+          throw NoStep{Ending::not_finite};
+        if (!(curvature > 0.))
+          throw NoStep{Ending::not_positive};
+        control.set_curvature(curvature);
+      }
+    };
+
+    /** Tells a control (r, z) of the first step. */
+    template <typename Preconditioner>
+    struct ObservedPreconditioner
+    {
+      const Preconditioner &preconditioner;
+      GainControl          &control;
+      mutable bool          is_first = true;
+
+      template <typename VectorType>
+      void
+      vmult(VectorType &destination, const VectorType &source) const
+      {
+        preconditioner.vmult(destination, source);
+        if (is_first)
+          control.set_first_energy(source * destination);
+        is_first = false;
+      }
+    };
+  } // namespace internal
+
+  /**
+   * deal.II's conjugate gradients for matrix x = @p right_hand_side from @p x on, until
+   * @p control ends them. Collective if the vectors are distributed.
+   * @param matrix and @param preconditioner have vmult(), and are symmetric and positive.
+   * @param x stays what it was if it would not be finite.
+   */
+  template <typename Matrix, typename Preconditioner, typename VectorType>
+  Ending
+  conjugate_gradients(const Matrix         &matrix,
+                      const Preconditioner &preconditioner,
+                      const VectorType     &right_hand_side,
+                      GainControl          &control,
+                      VectorType           &x)
+  {
+    const VectorType                          start = x;
+    dealii::PrimitiveVectorMemory<VectorType> memory; // the default one keeps its vectors
+    dealii::SolverCG<VectorType>              solver(control, memory);
+    solver.connect_coefficients_slot(
+      [&](const double, const double beta) { control.multiply_energy(beta); });
+    Ending ending = Ending::converged;
+    try
+      {
+        solver.solve(internal::ObservedMatrix<Matrix>{matrix, control},
+                     x,
+                     right_hand_side,
+                     internal::ObservedPreconditioner<Preconditioner>{preconditioner, control});
+      }
+    catch (const internal::NoStep &none)
+      {
+        ending = none.reason;
+      }
+    catch (const dealii::SolverControl::NoConvergence &)
+      {
+        ending = Ending::stopped;
+      }
+    if (!std::isfinite(x.l2_norm()))
+      {
+        x      = start;
+        ending = Ending::not_finite;
+      }
+    return ending;
+  }
 } // namespace tetradapt::solve
 
 #endif

@@ -16,7 +16,7 @@ namespace tetradapt::solve
     /** Factorises. Collective. @throws core::NumericalError if @p matrix is not positive
      * definite, or if a pivot is below 1e-14 of its diagonal entry, so that nothing but
      * rounding is left of it: a body that is free to move is never solved. */
-    DirectSolver(const mechanics::BlockMatrix &matrix, const mechanics::DisplacementSpace &space);
+    DirectSolver(const mechanics::BlockMatrix &matrix, const fem::Space &space);
     ~DirectSolver();
 
     /** Solves matrix solution = right-hand side. Collective. */

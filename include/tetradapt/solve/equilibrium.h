@@ -2,7 +2,7 @@
 #ifndef tetradapt_solve_equilibrium_h
 #define tetradapt_solve_equilibrium_h
 
-#include "tetradapt/mechanics/displacement_space.h"
+#include "tetradapt/fem/space.h"
 #include "tetradapt/mechanics/extent.h"
 #include "tetradapt/mechanics/resultant.h"
 #include "tetradapt/mechanics/supports.h"
@@ -57,7 +57,7 @@ namespace tetradapt::solve
   struct LoadedSystem
   {
     const scene::Scene                      &scene;
-    const mechanics::DisplacementSpace      &space;
+    const fem::Space                        &space;
     const mechanics::MaterialMap            &materials;
     const mechanics::PrescribedDisplacement &prescribed;
     /** Of all loads, one a field node, complete on the nodes that this rank owns. */

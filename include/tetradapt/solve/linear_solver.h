@@ -16,8 +16,7 @@ namespace tetradapt::solve
   /** What a matrix and its coarser levels are built from. */
   struct LinearModel
   {
-    const mechanics::MeshPartition          &partition;
-    const mechanics::DisplacementSpace      &space;
+    const fem::Space                        &space;
     const mechanics::TangentField           &tangents;
     const mechanics::PrescribedDisplacement &prescribed;
   };
@@ -104,6 +103,8 @@ namespace tetradapt::solve
     load_norm(const Vector &right_hand_side, const std::string &load) const;
     LinearResult
     iterate(const Vector &right_hand_side, const LinearStop &stop, double norm, Vector &x) const;
+    IterationResult
+    iterate_once(const Vector &right_hand_side, const IterationLimits &limits, Vector &x) const;
     /** The error in the energy norm, relative to the solution, that the residual may hide. */
     double
     hidden_error(const IterationResult &result,
@@ -119,7 +120,7 @@ namespace tetradapt::solve
     factorise_instead(unsigned int iterations) const;
 
     LinearModel                                             model;
-    const mechanics::DisplacementSpace                     &space;
+    const fem::Space                                       &space;
     const mechanics::PrescribedDisplacement                &prescribed;
     const scene::SolverParameters                          &parameters;
     const core::Log                                        &log;
@@ -127,9 +128,9 @@ namespace tetradapt::solve
     std::unique_ptr<mechanics::LinearSystem>                assembled;
     std::unique_ptr<mechanics::MatrixFreeStiffness<double>> matrix_free;
     /** Made again in double precision where single does not do. */
-    mutable std::unique_ptr<mechanics::DisplacementSpace> coarse_space; ///< of p-multigrid
-    mutable std::unique_ptr<Preconditioner>               preconditioner;
-    mutable bool                                          is_single = false;
+    mutable std::unique_ptr<fem::Space>     coarse_space; ///< of p-multigrid
+    mutable std::unique_ptr<Preconditioner> preconditioner;
+    mutable bool                            is_single = false;
     /** From the beginning, or made when conjugate gradients failed. */
     mutable std::unique_ptr<DirectSolver> direct;
   };

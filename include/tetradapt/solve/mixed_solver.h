@@ -25,7 +25,7 @@ namespace tetradapt::solve
   /** What the mixed form is made of. */
   struct MixedModel
   {
-    const mechanics::DisplacementSpace      &space; ///< of degree 2
+    const fem::Space                        &space; ///< of degree 2
     const mechanics::MaterialMap            &materials;
     const mechanics::PrescribedDisplacement &prescribed;
     const LinearSolver                      &kept; ///< of kept_scene()

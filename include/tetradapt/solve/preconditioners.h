@@ -42,7 +42,7 @@ namespace tetradapt::solve
   template <typename Number>
   std::unique_ptr<ApproximateInverse<Number>>
   make_amg(const mechanics::BlockMatrix            &matrix,
-           const mechanics::DisplacementSpace      &space,
+           const fem::Space                        &space,
            const mechanics::PrescribedDisplacement &prescribed,
            double                                   scale);
 
@@ -54,8 +54,8 @@ namespace tetradapt::solve
   template <typename Number>
   std::unique_ptr<ApproximateInverse<Number>>
   make_p_multigrid(std::unique_ptr<mechanics::MatrixFreeStiffness<Number>> fine,
-                   const mechanics::DisplacementSpace                     &fine_space,
-                   const mechanics::DisplacementSpace                     &coarse_space,
+                   const fem::Space                                       &fine_space,
+                   const fem::Space                                       &coarse_space,
                    const mechanics::PrescribedDisplacement                &prescribed,
                    std::unique_ptr<ApproximateInverse<Number>>             coarse_solver);
 } // namespace tetradapt::solve

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#ifndef tetradapt_mechanics_mesh_partition_h
-#define tetradapt_mechanics_mesh_partition_h
+#ifndef tetradapt_fem_partition_h
+#define tetradapt_fem_partition_h
 
 #include "tetradapt/mesh/tet_mesh.h"
 
 #include <mpi.h>
 
-namespace tetradapt::mechanics
+namespace tetradapt::fem
 {
   /**
    * The cells of a TetMesh shared out among the MPI ranks, in the order in which they are
@@ -17,11 +17,11 @@ namespace tetradapt::mechanics
    * right angles to its longest extent, and so on (recursive coordinate bisection). Every
    * rank holds the whole mesh and computes the same partition, without communication.
    */
-  class MeshPartition
+  class Partition
   {
   public:
     /** Every rank passes the same mesh, which must outlive this object. */
-    MeshPartition(const mesh::TetMesh &mesh, MPI_Comm communicator);
+    Partition(const mesh::TetMesh &mesh, MPI_Comm communicator);
 
     MPI_Comm
     communicator() const
@@ -58,6 +58,6 @@ namespace tetradapt::mechanics
     unsigned int              rank_count;
     std::vector<unsigned int> cell_order, firsts;
   };
-} // namespace tetradapt::mechanics
+} // namespace tetradapt::fem
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "tetradapt/mechanics/mesh_partition.h"
+#include "tetradapt/fem/partition.h"
 
 #include "tetradapt/mesh/space_curve.h"
 
@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <numeric>
 
-namespace tetradapt::mechanics
+namespace tetradapt::fem
 {
   namespace
   {
@@ -71,7 +71,7 @@ namespace tetradapt::mechanics
     }
   } // namespace
 
-  MeshPartition::MeshPartition(const mesh::TetMesh &mesh, MPI_Comm communicator)
+  Partition::Partition(const mesh::TetMesh &mesh, MPI_Comm communicator)
     : tet_mesh(mesh), mpi_communicator(communicator),
       rank_count(dealii::Utilities::MPI::n_mpi_processes(communicator))
   {
@@ -92,4 +92,4 @@ namespace tetradapt::mechanics
       cells[next[owners[cell]]++] = cell;
     cell_order = std::move(cells);
   }
-} // namespace tetradapt::mechanics
+} // namespace tetradapt::fem

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_fem_fixed_unknowns_h
+#define tetradapt_fem_fixed_unknowns_h
+
+#include "tetradapt/fem/space.h"
+
+#include <deal.II/lac/affine_constraints.h>
+
+namespace tetradapt::fem
+{
+  using Constraints = dealii::AffineConstraints<double>;
+
+  /** Constraints of the unknowns that this rank needs of @p space, none yet, not closed. */
+  Constraints
+  make_constraints(const Space &space);
+
+  /**
+   * The unknowns that Constraints fix at a value, in the local numbers of a Space: what kernels
+   * take, which work node by node. Local unknown 3 i + c is component c of local node i.
+   */
+  class FixedUnknowns
+  {
+  public:
+    /**
+     * Keeps no reference.
+     * @throws dealii::ExcNotImplemented if an unknown depends on others.
+     */
+    FixedUnknowns(const Space &space, const Constraints &constraints);
+
+    /** Bit c is set: component c of the node is fixed. */
+    unsigned char
+    components(const unsigned int local_node) const
+    {
+      return bits[local_node];
+    }
+    bool
+    is_fixed(const unsigned int local_node, const unsigned int c) const
+    {
+      return (bits[local_node] >> c & 1) != 0;
+    }
+    /** The value of a fixed unknown. */
+    double
+    value(const unsigned int local_node, const unsigned int c) const;
+    /** All of them, ascending: those of owned nodes first. */
+    const std::vector<unsigned int> &
+    unknowns() const
+    {
+      return numbers;
+    }
+    /** Of unknowns(). */
+    const std::vector<double> &
+    values() const
+    {
+      return fixed_values;
+    }
+    /** Whether all values on this rank are zero. */
+    bool
+    is_homogeneous() const;
+
+  private:
+    std::vector<unsigned char> bits; ///< one a local node
+    std::vector<unsigned int>  numbers;
+    std::vector<double>        fixed_values;
+  };
+} // namespace tetradapt::fem
+
+#endif

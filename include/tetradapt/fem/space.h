@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_fem_space_h
+#define tetradapt_fem_space_h
+
+#include "tetradapt/mesh/nodal_field.h"
+
+#include <deal.II/base/partitioner.h>
+#include <deal.II/lac/la_parallel_vector.h>
+
+#include <memory>
+
+DEAL_II_NAMESPACE_OPEN
+template <int dim, int spacedim>
+class DoFHandler;
+DEAL_II_NAMESPACE_CLOSE
+
+namespace tetradapt::fem
+{
+  class Triangulation;
+
+  using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
+
+  /**
+   * The continuous displacements of degree 1 or 2 on a triangulation: deal.II's DoFHandler with
+   * FESystem<3>(FE_SimplexP<3>(degree), 3), and tables of its numbers for kernels, which take
+   * nodes instead of unknowns.
+   *
+   * deal.II numbers such a space node by node, in the order in which the cells of the ranks,
+   * one after the other, first name the nodes: component c of node i is unknown 3 i + c, and of
+   * the ranks whose cells have a node, the first owns it. A node that a rank needs has a "local
+   * node" number there: first those that the rank owns, then ghosts. Its number in a
+   * mesh::NodalField, the same on every rank, is its "field node".
+   */
+  class Space
+  {
+  public:
+    /**
+     * Collective. @p edges is needed for degree 2; it and the triangulation must outlive this
+     * object.
+     * @throws dealii::ExcNotImplemented for another degree.
+     */
+    Space(const Triangulation &triangulation, unsigned int degree, const mesh::EdgeTable *edges);
+    ~Space();
+
+    const dealii::DoFHandler<3, 3> &
+    dof_handler() const
+    {
+      return *handler;
+    }
+    const Triangulation &
+    triangulation() const
+    {
+      return body;
+    }
+    unsigned int
+    degree() const
+    {
+      return polynomial_degree;
+    }
+    /** 4 or 10. */
+    unsigned int
+    n_nodes_per_cell() const
+    {
+      return polynomial_degree == 1 ? 4 : 10;
+    }
+    /** 3 times the number of nodes, over all ranks. */
+    dealii::types::global_dof_index
+    n_dofs() const
+    {
+      return partitioner->size();
+    }
+    unsigned int
+    n_owned_nodes() const
+    {
+      return n_owned;
+    }
+    unsigned int
+    n_local_nodes() const
+    {
+      return field_nodes.size();
+    }
+    /** The field node of a local node. */
+    unsigned int
+    field_node(const unsigned int local_node) const
+    {
+      return field_nodes[local_node];
+    }
+    /** The local node of a field node; numbers::invalid_unsigned_int elsewhere. */
+    unsigned int
+    local_node(const unsigned int field_node) const
+    {
+      return local_nodes[field_node];
+    }
+    /** Mesh cells that touch a node owned by this rank, in the order of the
+     * partition: what assembling complete rows needs. Also the rank's other cells, so
+     * that each node that it owns in one space has its neighbours in spaces of another
+     * degree on the same triangulation. */
+    const std::vector<unsigned int> &
+    touching_cells() const
+    {
+      return cells;
+    }
+    /** The local nodes of the k-th of touching_cells(), n_nodes_per_cell() of them: vertices,
+     * then edges in deal.II's order. */
+    const unsigned int *
+    local_nodes_of(const unsigned int k) const
+    {
+      return &cell_nodes[std::size_t(k) * n_nodes_per_cell()];
+    }
+    /** Field node @p i (vertices, then edges) of mesh cell @p cell. */
+    unsigned int
+    cell_node(const unsigned int cell, const unsigned int i) const
+    {
+      return i < 4 ? tet_mesh().cells[cell][i]
+                   : tet_mesh().n_points() + edges->cell_edges[cell][i - 4];
+    }
+    unsigned int
+    n_field_nodes() const
+    {
+      return local_nodes.size();
+    }
+    const mesh::TetMesh &
+    tet_mesh() const
+    {
+      return mesh;
+    }
+    const mesh::EdgeTable *
+    edge_table() const
+    {
+      return edges;
+    }
+    MPI_Comm
+    communicator() const
+    {
+      return mpi_communicator;
+    }
+    /** Layout of vectors: the owned unknowns, and as ghosts the others of touching_cells(). */
+    const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &
+    vector_layout() const
+    {
+      return partitioner;
+    }
+
+    /** Puts the owned values of @p vector in @p field, on every rank. Collective. */
+    void
+    gather(const Vector &vector, std::vector<dealii::Tensor<1, 3>> &field) const;
+
+  private:
+    /** Fills cells, and their nodes' numbers on all ranks in @p nodes. */
+    void
+    list_cells(std::vector<dealii::types::global_dof_index> &nodes);
+    /** Makes the layout and the tables of local numbers. */
+    void
+    number_locally(const std::vector<dealii::types::global_dof_index> &nodes);
+
+    const Triangulation                                       &body;
+    const mesh::TetMesh                                       &mesh;
+    MPI_Comm                                                   mpi_communicator;
+    const mesh::EdgeTable                                     *edges;
+    unsigned int                                               polynomial_degree;
+    std::unique_ptr<dealii::DoFHandler<3, 3>>                  handler;
+    unsigned int                                               n_owned = 0;
+    std::vector<unsigned int>                                  cells, cell_nodes;
+    std::vector<unsigned int>                                  field_nodes, local_nodes;
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
+  };
+} // namespace tetradapt::fem
+
+#endif

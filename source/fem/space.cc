@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/fem/space.h"
+
+#include "tetradapt/fem/triangulation.h"
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/dofs/dof_accessor.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/fe/fe_system.h>
+
+#include <algorithm>
+
+namespace tetradapt::fem
+{
+  using dealii::IndexSet;
+  using dealii::types::global_dof_index;
+
+  namespace
+  {
+    constexpr unsigned int invalid = dealii::numbers::invalid_unsigned_int;
+  }
+
+  Space::Space(const Triangulation   &triangulation,
+               const unsigned int     degree,
+               const mesh::EdgeTable *edges)
+    : body(triangulation), mesh(triangulation.tet_mesh()),
+      mpi_communicator(triangulation.partition().communicator()), edges(edges),
+      polynomial_degree(degree), handler(std::make_unique<dealii::DoFHandler<3>>(triangulation))
+  {
+    AssertThrow(degree == 1 || degree == 2, dealii::ExcNotImplemented());
+    handler->distribute_dofs(dealii::FESystem<3>(dealii::FE_SimplexP<3>(degree), 3));
+    std::vector<global_dof_index> nodes;
+    list_cells(nodes);
+    number_locally(nodes);
+  }
+
+  Space::~Space() = default;
+
+  void
+  Space::list_cells(std::vector<global_dof_index> &nodes)
+  {
+    const IndexSet               &owned   = handler->locally_owned_dofs();
+    const unsigned int            n_nodes = n_nodes_per_cell();
+    std::vector<global_dof_index> dofs(3 * n_nodes);
+    cells.reserve(body.n_active_cells());
+    nodes.reserve(std::size_t(body.n_active_cells()) * n_nodes);
+    for (const auto &cell : handler->active_cell_iterators())
+      {
+        if (cell->is_artificial())
+          continue;
+        cell->get_dof_indices(dofs);
+        if (cell->is_ghost()
+            && std::none_of(dofs.begin(), dofs.end(), [&](auto i) { return owned.is_element(i); }))
+          continue;
+        cells.push_back(body.mesh_cell(cell->index()));
+        for (unsigned int i = 0; i < n_nodes; ++i)
+          nodes.push_back(dofs[3 * i] / 3);
+      }
+  }
+
+  void
+  Space::number_locally(const std::vector<global_dof_index> &nodes)
+  {
+    const IndexSet        &owned = handler->locally_owned_dofs();
+    const global_dof_index begin = owned.n_elements() > 0 ? *owned.begin() / 3 : 0;
+    n_owned                      = owned.n_elements() / 3;
+
+    std::vector<global_dof_index> ghosts;
+    for (const global_dof_index node : nodes)
+      if (node < begin || node - begin >= n_owned)
+        ghosts.push_back(node);
+    std::sort(ghosts.begin(), ghosts.end());
+    ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
+    IndexSet ghost_dofs(owned.size());
+    for (const global_dof_index node : ghosts)
+      ghost_dofs.add_range(3 * node, 3 * (node + 1));
+    ghost_dofs.compress();
+    partitioner
+      = std::make_shared<dealii::Utilities::MPI::Partitioner>(owned, ghost_dofs, communicator());
+
+    cell_nodes.reserve(nodes.size());
+    for (const global_dof_index node : nodes)
+      cell_nodes.push_back(
+        node >= begin && node - begin < n_owned
+          ? node - begin
+          : n_owned + (std::lower_bound(ghosts.begin(), ghosts.end(), node) - ghosts.begin()));
+
+    field_nodes.resize(n_owned + ghosts.size());
+    local_nodes.assign(tet_mesh().n_points() + (polynomial_degree == 2 ? edges->edges.size() : 0),
+                       invalid);
+    for (unsigned int k = 0; k < cells.size(); ++k)
+      for (unsigned int i = 0; i < n_nodes_per_cell(); ++i)
+        {
+          const unsigned int local = local_nodes_of(k)[i], field = cell_node(cells[k], i);
+          field_nodes[local] = field;
+          local_nodes[field] = local;
+        }
+  }
+
+  void
+  Space::gather(const Vector &vector, std::vector<dealii::Tensor<1, 3>> &field) const
+  {
+    field.assign(n_field_nodes(), dealii::Tensor<1, 3>());
+    for (unsigned int l = 0; l < n_owned; ++l)
+      for (unsigned int c = 0; c < 3; ++c)
+        field[field_nodes[l]][c] = vector.local_element(3 * l + c);
+    if (partitioner->n_mpi_processes() > 1)
+      {
+        static_assert(sizeof(dealii::Tensor<1, 3>) == 3 * sizeof(double));
+        MPI_Allreduce(
+          MPI_IN_PLACE, field.data(), 3 * field.size(), MPI_DOUBLE, MPI_SUM, communicator());
+      }
+  }
+} // namespace tetradapt::fem
