@@ -20,6 +20,26 @@ namespace tetradapt::fem
 #endif
   }
 
+  Constraints
+  restrict_to(const Space &space, const Space &finer, const Constraints &constraints)
+  {
+    Constraints result = make_constraints(space);
+    for (unsigned int node = 0; node < space.n_local_nodes(); ++node)
+      for (unsigned int c = 0; c < 3; ++c)
+        {
+          const unsigned int fine   = finer.local_node(space.field_node(node));
+          const auto         number = finer.vector_layout()->local_to_global(3 * fine + c);
+          if (!constraints.is_constrained(number))
+            continue;
+          const auto unknown = space.vector_layout()->local_to_global(3 * node + c);
+          result.add_line(unknown);
+          result.set_inhomogeneity(unknown, constraints.get_inhomogeneity(number));
+        }
+    if (constraints.is_closed())
+      result.close();
+    return result;
+  }
+
   FixedUnknowns::FixedUnknowns(const Space &space, const Constraints &constraints)
     : bits(space.n_local_nodes(), 0)
   {
@@ -45,6 +65,13 @@ namespace tetradapt::fem
   {
     const auto found = std::lower_bound(numbers.begin(), numbers.end(), 3 * local_node + c);
     return fixed_values[found - numbers.begin()];
+  }
+
+  void
+  FixedUnknowns::distribute(Vector &vector) const
+  {
+    for (std::size_t k = 0; k < numbers.size() && numbers[k] < vector.locally_owned_size(); ++k)
+      vector.local_element(numbers[k]) = fixed_values[k];
   }
 
   bool

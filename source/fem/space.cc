@@ -24,15 +24,33 @@ namespace tetradapt::fem
   Space::Space(const Triangulation   &triangulation,
                const unsigned int     degree,
                const mesh::EdgeTable *edges)
-    : body(triangulation), mesh(triangulation.tet_mesh()),
-      mpi_communicator(triangulation.partition().communicator()), edges(edges),
-      polynomial_degree(degree), handler(std::make_unique<dealii::DoFHandler<3>>(triangulation))
+    : Space(triangulation, edges, degree)
   {
     AssertThrow(degree == 1 || degree == 2, dealii::ExcNotImplemented());
+    handler = std::make_unique<dealii::DoFHandler<3>>(triangulation);
     handler->distribute_dofs(dealii::FESystem<3>(dealii::FE_SimplexP<3>(degree), 3));
     std::vector<global_dof_index> nodes;
     list_cells(nodes);
-    number_locally(nodes);
+    number_locally(handler->locally_owned_dofs(), nodes);
+  }
+
+  Space::Space(const Triangulation   &triangulation,
+               const mesh::EdgeTable *edges,
+               const unsigned int     degree)
+    : body(triangulation), mesh(triangulation.tet_mesh()),
+      mpi_communicator(triangulation.partition().communicator()), edges(edges),
+      polynomial_degree(degree)
+  {
+  }
+
+  std::unique_ptr<Space>
+  Space::linear_part(const Space &quadratic)
+  {
+    std::unique_ptr<Space>        space(new Space(quadratic.body, quadratic.edges, 1));
+    std::vector<global_dof_index> nodes;
+    const IndexSet                owned = space->list_cells_of(quadratic, nodes);
+    space->number_locally(owned, nodes);
+    return space;
   }
 
   Space::~Space() = default;
@@ -54,15 +72,52 @@ namespace tetradapt::fem
             && std::none_of(dofs.begin(), dofs.end(), [&](auto i) { return owned.is_element(i); }))
           continue;
         cells.push_back(body.mesh_cell(cell->index()));
+        is_ghost.push_back(cell->is_ghost());
         for (unsigned int i = 0; i < n_nodes; ++i)
           nodes.push_back(dofs[3 * i] / 3);
       }
   }
 
-  void
-  Space::number_locally(const std::vector<global_dof_index> &nodes)
+  IndexSet
+  Space::list_cells_of(const Space &quadratic, std::vector<global_dof_index> &nodes)
   {
-    const IndexSet        &owned = handler->locally_owned_dofs();
+    std::vector<unsigned int> vertices; // local nodes of the quadratic space
+    for (unsigned int node = 0; node < quadratic.n_owned; ++node)
+      if (quadratic.field_nodes[node] < mesh.n_points())
+        vertices.push_back(node);
+    const global_dof_index n_mine = vertices.size();
+    global_dof_index       before = 0;
+    MPI_Exscan(&n_mine, &before, 1, DEAL_II_DOF_INDEX_MPI_TYPE, MPI_SUM, mpi_communicator);
+    if (dealii::Utilities::MPI::this_mpi_process(mpi_communicator) == 0)
+      before = 0; // MPI leaves it undefined
+    IndexSet owned(3 * dealii::Utilities::MPI::sum(n_mine, mpi_communicator));
+    owned.add_range(3 * before, 3 * (before + n_mine));
+
+    // Owners tell the numbers of ghosts; doubles hold them exactly.
+    Vector numbers(quadratic.partitioner);
+    for (unsigned int i = 0; i < vertices.size(); ++i)
+      numbers.local_element(3 * vertices[i]) = before + i;
+    numbers.update_ghost_values();
+    const unsigned int n_nodes = quadratic.n_nodes_per_cell();
+    nodes.reserve(4 * quadratic.cells.size());
+    for (unsigned int k = 0; k < quadratic.cells.size(); ++k)
+      {
+        const unsigned int *of_cell = &quadratic.cell_nodes[std::size_t(k) * n_nodes];
+        if (quadratic.is_ghost[k] && std::all_of(of_cell, of_cell + 4, [&](auto node) {
+              return node >= quadratic.n_owned;
+            }))
+          continue;
+        cells.push_back(quadratic.cells[k]);
+        is_ghost.push_back(quadratic.is_ghost[k]);
+        for (unsigned int i = 0; i < 4; ++i)
+          nodes.push_back(numbers.local_element(3 * of_cell[i]));
+      }
+    return owned;
+  }
+
+  void
+  Space::number_locally(const IndexSet &owned, const std::vector<global_dof_index> &nodes)
+  {
     const global_dof_index begin = owned.n_elements() > 0 ? *owned.begin() / 3 : 0;
     n_owned                      = owned.n_elements() / 3;
 

@@ -15,13 +15,13 @@ namespace tetradapt::mechanics
       {{{0, 4, 6, 7}}, {{4, 1, 5, 8}}, {{6, 5, 2, 9}}, {{7, 8, 9, 3}}}};
   } // namespace
 
-  Divergence::Divergence(const PressureSpace &space, const PrescribedDisplacement &prescribed)
+  Divergence::Divergence(const PressureSpace &space, const fem::FixedUnknowns &fixed_unknowns)
     : n_displacements(space.displacements().n_owned_nodes()), n_pressures(space.n_owned_nodes()),
       fixed(n_displacements)
   {
     const fem::Space &displacements = space.displacements();
     for (unsigned int node = 0; node < n_displacements; ++node)
-      fixed[node] = prescribed.fixed[displacements.field_node(node)];
+      fixed[node] = fixed_unknowns.components(node);
     cells.reserve(displacements.touching_cells().size());
     for (const unsigned int cell : displacements.touching_cells())
       {

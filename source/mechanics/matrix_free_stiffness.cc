@@ -42,16 +42,13 @@ namespace tetradapt::mechanics
   } // namespace
 
   template <typename Number>
-  MatrixFreeStiffness<Number>::MatrixFreeStiffness(const fem::Space             &space,
-                                                   const TangentField           &tangents,
-                                                   const PrescribedDisplacement &prescribed,
-                                                   const double                  scale)
-    : space(space), isotropic(tangents.is_isotropic()), one_tangent(tangents.points_per_cell() == 1)
+  MatrixFreeStiffness<Number>::MatrixFreeStiffness(const fem::Space         &space,
+                                                   const TangentField       &tangents,
+                                                   const fem::FixedUnknowns &fixed,
+                                                   const double              scale)
+    : space(space), fixed(fixed), isotropic(tangents.is_isotropic()),
+      one_tangent(tangents.points_per_cell() == 1)
   {
-    for (unsigned int node = 0; node < space.n_local_nodes(); ++node)
-      for (unsigned int c = 0; c < 3; ++c)
-        if (prescribed.is_fixed(space.field_node(node), c))
-          fixed.push_back(3 * node + c);
     store_cells(tangents, scale);
     compute_diagonal();
   }
@@ -114,7 +111,7 @@ namespace tetradapt::mechanics
                                   n_batches,
                                   blocks.data()->data());
     blocks.resize(space.n_owned_nodes());
-    for (const unsigned int unknown : fixed)
+    for (const unsigned int unknown : fixed.unknowns())
       if (unknown < 3 * blocks.size())
         {
           Block             &block = blocks[unknown / 3];
@@ -149,53 +146,57 @@ namespace tetradapt::mechanics
   MatrixFreeStiffness<Number>::vmult(VectorOf<Number>       &destination,
                                      const VectorOf<Number> &source) const
   {
-    // Constrained unknowns count as zero; their values are put back below.
-    Number             *x       = const_cast<Number *>(source.begin());
-    const unsigned int  n_owned = 3 * space.n_owned_nodes();
-    std::vector<Number> kept;
-    for (const unsigned int unknown : fixed)
-      if (unknown < n_owned)
-        {
-          kept.push_back(x[unknown]);
-          x[unknown] = 0;
-        }
-    source.update_ghost_values_start();
+    // Fixed unknowns count as zero.
+    const std::size_t n_fixed = std::lower_bound(fixed.unknowns().begin(),
+                                                 fixed.unknowns().end(),
+                                                 3 * space.n_owned_nodes())
+                                - fixed.unknowns().begin(); // owned ones
+    const VectorOf<Number> *free = &source;
+    if (std::any_of(fixed.unknowns().begin(),
+                    fixed.unknowns().begin() + n_fixed,
+                    [&](const unsigned int unknown) { return source.local_element(unknown) != 0; }))
+      {
+        masked.reinit(source, true);
+        std::copy_n(source.begin(), source.locally_owned_size(), masked.begin());
+        for (std::size_t k = 0; k < n_fixed; ++k)
+          masked.local_element(fixed.unknowns()[k]) = 0;
+        free = &masked;
+      }
+    free->update_ghost_values_start();
     Number *y = destination.begin();
     std::fill(y, y + 3 * std::size_t(space.n_local_nodes()), Number(0));
-    add_forces(0, n_own_batches, x, y);
-    source.update_ghost_values_finish();
-    add_forces(n_own_batches, n_batches, x, y);
-    for (unsigned int i = 0; i < kept.size(); ++i)
+    add_forces(0, n_own_batches, free->begin(), y);
+    free->update_ghost_values_finish();
+    add_forces(n_own_batches, n_batches, free->begin(), y);
+    free->zero_out_ghost_values();
+    for (std::size_t k = 0; k < n_fixed; ++k)
       {
-        x[fixed[i]] = kept[i];
-        y[fixed[i]] = diagonal[fixed[i] / 3][4 * (fixed[i] % 3)] * kept[i];
+        const unsigned int unknown = fixed.unknowns()[k];
+        y[unknown] = diagonal[unknown / 3][4 * (unknown % 3)] * source.local_element(unknown);
       }
-    source.zero_out_ghost_values();
     destination.zero_out_ghost_values();
   }
 
   template <typename Number>
   VectorOf<Number>
   MatrixFreeStiffness<Number>::right_hand_side(
-    const PrescribedDisplacement &prescribed, const std::vector<dealii::Tensor<1, 3>> &forces) const
+    const std::vector<dealii::Tensor<1, 3>> &forces) const
   {
     VectorOf<Number> b(space.vector_layout());
-    if (!prescribed.is_homogeneous())
+    if (!fixed.is_homogeneous())
       {
         std::vector<Number> x(3 * std::size_t(space.n_local_nodes()), Number(0));
-        for (const unsigned int unknown : fixed)
-          x[unknown] = prescribed.values[space.field_node(unknown / 3)][unknown % 3];
+        for (std::size_t k = 0; k < fixed.unknowns().size(); ++k)
+          x[fixed.unknowns()[k]] = fixed.values()[k];
         add_forces(0, n_batches, x.data(), b.begin());
         b.zero_out_ghost_values();
       }
     for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
       for (unsigned int c = 0; c < 3; ++c)
         {
-          const unsigned int field_node = space.field_node(node);
-          Number            &value      = b.local_element(3 * node + c);
-          value                         = prescribed.is_fixed(field_node, c)
-                                            ? Number(diagonal[node][4 * c] * prescribed.values[field_node][c])
-                                            : Number(forces[field_node][c]) - value;
+          Number &value = b.local_element(3 * node + c);
+          value = fixed.is_fixed(node, c) ? Number(diagonal[node][4 * c] * fixed.value(node, c))
+                                          : Number(forces[space.field_node(node)][c]) - value;
         }
     return b;
   }

@@ -87,28 +87,26 @@ namespace tetradapt::mechanics
     /** Adds one block to entry @p entry of a row, leaving out constrained rows and columns
      * and moving prescribed values to the right-hand side. */
     void
-    add_constrained_block(const BlockMatrix::Block     &K,
-                          bool                          transposed,
-                          unsigned int                  row_node,
-                          unsigned int                  column_node,
-                          unsigned int                  row,
-                          unsigned int                  entry,
-                          const PrescribedDisplacement &prescribed,
-                          LinearSystem                 &system)
+    add_constrained_block(const BlockMatrix::Block &K,
+                          bool                      transposed,
+                          unsigned int              row,
+                          unsigned int              column,
+                          unsigned int              entry,
+                          const fem::FixedUnknowns &fixed,
+                          LinearSystem             &system)
     {
       BlockMatrix::Block &target       = system.matrix.block(entry);
-      const unsigned char row_fixed    = prescribed.fixed[row_node];
-      const unsigned char column_fixed = prescribed.fixed[column_node];
+      const unsigned char row_fixed    = fixed.components(row);
+      const unsigned char column_fixed = fixed.components(column);
       for (unsigned int i = 0; i < 3; ++i)
         for (unsigned int j = 0; j < 3; ++j)
           {
             const double value   = transposed ? K[3 * j + i] : K[3 * i + j];
             const bool   i_fixed = row_fixed >> i & 1, j_fixed = column_fixed >> j & 1;
-            if ((!i_fixed && !j_fixed) || (row_node == column_node && i == j))
+            if ((!i_fixed && !j_fixed) || (row == column && i == j))
               target[3 * i + j] += value;
             else if (!i_fixed)
-              system.prescribed_forces.local_element(3 * row + i)
-                += value * prescribed.values[column_node][j];
+              system.prescribed_forces.local_element(3 * row + i) += value * fixed.value(column, j);
           }
     }
 
@@ -126,20 +124,17 @@ namespace tetradapt::mechanics
     /** @p entries: where the matrix has the cell's blocks (see BlockMatrix). */
     template <unsigned int n>
     void
-    add_cell(const fem::Space             &space,
-             unsigned int                  cell,
-             const CellStiffness<n>       &stiffness,
-             const PrescribedDisplacement &prescribed,
-             const unsigned int           *entries,
-             LinearSystem                 &system)
+    add_cell(const fem::Space         &space,
+             unsigned int              k,
+             const CellStiffness<n>   &stiffness,
+             const fem::FixedUnknowns &fixed,
+             const unsigned int       *entries,
+             LinearSystem             &system)
     {
-      std::array<unsigned int, n> nodes;
-      unsigned char               any_fixed = 0;
+      const unsigned int *nodes     = space.local_nodes_of(k);
+      unsigned char       any_fixed = 0;
       for (unsigned int i = 0; i < n; ++i)
-        {
-          nodes[i] = space.cell_node(cell, i);
-          any_fixed |= prescribed.fixed[nodes[i]];
-        }
+        any_fixed |= fixed.components(nodes[i]);
       for (unsigned int a = 0; a < n; ++a)
         if (entries[n * a] != dealii::numbers::invalid_unsigned_int)
           for (unsigned int b = 0; b < n; ++b)
@@ -148,14 +143,8 @@ namespace tetradapt::mechanics
               if (any_fixed == 0) // almost everywhere
                 add_free_block(K, a > b, system.matrix.block(entries[n * a + b]));
               else
-                add_constrained_block(K,
-                                      a > b,
-                                      nodes[a],
-                                      nodes[b],
-                                      space.local_node(nodes[a]),
-                                      entries[n * a + b],
-                                      prescribed,
-                                      system);
+                add_constrained_block(
+                  K, a > b, nodes[a], nodes[b], entries[n * a + b], fixed, system);
             }
     }
 
@@ -163,7 +152,7 @@ namespace tetradapt::mechanics
     void
     assemble_cells(const fem::Space                &space,
                    const TangentField              &tangents,
-                   const PrescribedDisplacement    &prescribed,
+                   const fem::FixedUnknowns        &fixed,
                    const std::vector<unsigned int> &cell_entries,
                    LinearSystem                    &system)
     {
@@ -171,33 +160,30 @@ namespace tetradapt::mechanics
       const auto           points = stiffness_points(space.degree());
       CellStiffness<n>     stiffness;
       const unsigned int  *entries = cell_entries.data();
-      for (const unsigned int cell : space.touching_cells())
+      for (unsigned int k = 0; k < space.touching_cells().size(); ++k, entries += n * n)
         {
-          stiffness.compute(mesh, cell, tangents, points);
-          add_cell(space, cell, stiffness, prescribed, entries, system);
-          entries += n * n;
+          stiffness.compute(mesh, space.touching_cells()[k], tangents, points);
+          add_cell(space, k, stiffness, fixed, entries, system);
         }
     }
   } // namespace
 
   LinearSystem
-  assemble(const fem::Space             &space,
-           const TangentField           &tangents,
-           const PrescribedDisplacement &prescribed)
+  assemble(const fem::Space &space, const TangentField &tangents, const fem::FixedUnknowns &fixed)
   {
     std::vector<unsigned int> cell_entries;
     LinearSystem              system(space, &cell_entries);
     if (space.degree() == 1)
-      assemble_cells<4>(space, tangents, prescribed, cell_entries, system);
+      assemble_cells<4>(space, tangents, fixed, cell_entries, system);
     else
-      assemble_cells<10>(space, tangents, prescribed, cell_entries, system);
+      assemble_cells<10>(space, tangents, fixed, cell_entries, system);
     return system;
   }
 
   Vector
   right_hand_side(const LinearSystem              &system,
                   const fem::Space                &space,
-                  const PrescribedDisplacement    &prescribed,
+                  const fem::FixedUnknowns        &fixed,
                   const std::vector<Tensor<1, 3>> &forces)
   {
     Vector b(space.vector_layout());
@@ -207,8 +193,8 @@ namespace tetradapt::mechanics
         const auto        &diagonal = system.matrix.block(system.matrix.row_begin(row));
         for (unsigned int c = 0; c < 3; ++c)
           b.local_element(3 * row + c)
-            = prescribed.is_fixed(node, c)
-                ? diagonal[4 * c] * prescribed.values[node][c]
+            = fixed.is_fixed(row, c)
+                ? diagonal[4 * c] * fixed.value(row, c)
                 : forces[node][c] - system.prescribed_forces.local_element(3 * row + c);
       }
     return b;

@@ -96,6 +96,25 @@ namespace tetradapt::mechanics
     return std::all_of(values.begin(), values.end(), [](const auto &v) { return v == 0. * v; });
   }
 
+  fem::Constraints
+  make_constraints(const PrescribedDisplacement &prescribed, const fem::Space &space)
+  {
+    fem::Constraints constraints = fem::make_constraints(space);
+    for (unsigned int node = 0; node < space.n_local_nodes(); ++node)
+      {
+        const unsigned int field_node = space.field_node(node);
+        for (unsigned int c = 0; c < 3; ++c)
+          if (prescribed.is_fixed(field_node, c))
+            {
+              const auto unknown = space.vector_layout()->local_to_global(3 * node + c);
+              constraints.add_line(unknown);
+              constraints.set_inhomogeneity(unknown, prescribed.values[field_node][c]);
+            }
+      }
+    constraints.close();
+    return constraints;
+  }
+
   std::vector<std::array<unsigned int, 6>>
   boundary_face_nodes(const mesh::TetMesh &mesh, const mesh::EdgeTable *edges)
   {

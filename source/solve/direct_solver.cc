@@ -73,15 +73,15 @@ namespace tetradapt::solve
       return triangle;
     }
 
-    /** All columns. Collective. */
+    /** All columns, on the first rank. Collective. */
     Triangle
     gather(Triangle triangle, MPI_Comm communicator)
     {
       if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
         return triangle;
-      return {all_gather_values(triangle.lengths, communicator),
-              all_gather_values(triangle.rows, communicator),
-              all_gather_values(triangle.values, communicator)};
+      return {gather_values(triangle.lengths, communicator),
+              gather_values(triangle.rows, communicator),
+              gather_values(triangle.values, communicator)};
     }
   } // namespace
 
@@ -188,12 +188,19 @@ namespace tetradapt::solve
   {
     const std::size_t         n = right_hand_side.locally_owned_size();
     const std::vector<double> own(right_hand_side.begin(), right_hand_side.begin() + n);
-    std::vector<double>       x    = all_gather_values(own, communicator);
+    const Shares              shares(n, communicator);
+    std::vector<double>       x    = gather_values(own, communicator);
     const bool                good = !is_first_rank || factors->solve(x);
     if (dealii::Utilities::MPI::min(good ? 1 : 0, communicator) == 0)
       throw_out_of_memory();
-    MPI_Bcast(x.data(), static_cast<int>(x.size()), MPI_DOUBLE, 0, communicator);
-    const auto first = right_hand_side.get_partitioner()->local_range().first;
-    std::copy_n(x.begin() + first, n, solution.begin());
+    MPI_Scatterv(x.data(),
+                 shares.sizes.data(),
+                 shares.begins.data(),
+                 MPI_DOUBLE,
+                 solution.begin(),
+                 static_cast<int>(n),
+                 MPI_DOUBLE,
+                 0,
+                 communicator);
   }
 } // namespace tetradapt::solve

@@ -40,17 +40,16 @@ namespace tetradapt::solve
   LinearSolver::LinearSolver(const LinearModel             &model,
                              const scene::SolverParameters &parameters,
                              const core::Log               &log)
-    : model(model), space(model.space), prescribed(model.prescribed), parameters(parameters),
-      log(log)
+    : model(model), space(model.space), fixed(model.space, model.constraints),
+      parameters(parameters), log(log)
   {
     const bool factorise = is_direct(parameters, space.n_dofs());
     if (factorise || space.degree() == 1)
       assembled = std::make_unique<mechanics::LinearSystem>(
-        mechanics::assemble(space, model.tangents, prescribed));
+        mechanics::assemble(space, model.tangents, fixed));
     else
-      matrix_free = std::make_unique<mechanics::MatrixFreeStiffness<double>>(space,
-                                                                             model.tangents,
-                                                                             prescribed);
+      matrix_free
+        = std::make_unique<mechanics::MatrixFreeStiffness<double>>(space, model.tangents, fixed);
     log.progress(factorise ? "factorising" : "building the preconditioner");
     if (factorise)
       {
@@ -85,16 +84,17 @@ namespace tetradapt::solve
   LinearSolver::multigrid(double scale) const
   {
     if (space.degree() == 1)
-      return make_amg<Number>(assembled->matrix, space, prescribed, scale);
-    coarse_space      = std::make_unique<fem::Space>(space.triangulation(), 1, nullptr);
-    const auto coarse = mechanics::assemble(*coarse_space, model.tangents, prescribed);
+      return make_amg<Number>(assembled->matrix, space, fixed, scale);
+    coarse_space = fem::Space::linear_part(space);
+    const fem::FixedUnknowns coarse_fixed(
+      *coarse_space, fem::restrict_to(*coarse_space, space, model.constraints));
+    const auto coarse = mechanics::assemble(*coarse_space, model.tangents, coarse_fixed);
     return make_p_multigrid<Number>(
-      std::make_unique<mechanics::MatrixFreeStiffness<Number>>(
-        space, model.tangents, prescribed, scale),
+      std::make_unique<mechanics::MatrixFreeStiffness<Number>>(space, model.tangents, fixed, scale),
       space,
       *coarse_space,
-      prescribed,
-      make_amg<Number>(coarse.matrix, *coarse_space, prescribed, scale));
+      fixed,
+      make_amg<Number>(coarse.matrix, *coarse_space, coarse_fixed, scale));
   }
 
   void
@@ -125,9 +125,8 @@ namespace tetradapt::solve
   Vector
   LinearSolver::right_hand_side(const std::vector<dealii::Tensor<1, 3>> &forces) const
   {
-    return matrix_free != nullptr
-             ? matrix_free->right_hand_side(prescribed, forces)
-             : mechanics::right_hand_side(*assembled, space, prescribed, forces);
+    return matrix_free != nullptr ? matrix_free->right_hand_side(forces)
+                                  : mechanics::right_hand_side(*assembled, space, fixed, forces);
   }
 
   double
@@ -137,7 +136,7 @@ namespace tetradapt::solve
     double sum = 0., largest = 0.;
     for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
       for (unsigned int c = 0; c < 3; ++c)
-        if (!prescribed.is_fixed(space.field_node(node), c))
+        if (!fixed.is_fixed(node, c))
           {
             const double value = right_hand_side.local_element(3 * node + c);
             sum += value * value;
@@ -171,10 +170,10 @@ namespace tetradapt::solve
                                    "constants.");
     if (norm > 0.)
       return iterate(right_hand_side, stop, norm, x);
-    // Nothing moves but what is prescribed, and that moves nothing else.
+    // Nothing moves but what is fixed, and that moves nothing else.
     for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
       for (unsigned int c = 0; c < 3; ++c)
-        if (!prescribed.is_fixed(space.field_node(node), c))
+        if (!fixed.is_fixed(node, c))
           x.local_element(3 * node + c) = 0.;
     return {0, 0, 0., "nothing to solve: no load"};
   }
@@ -280,10 +279,11 @@ namespace tetradapt::solve
                 + " iterations, since they converge too slowly: elements are very flat or long, "
                   "or materials differ very much in stiffness. The direct solver takes over.");
     log.progress("factorising");
-    direct = std::make_unique<DirectSolver>(
-      assembled != nullptr ? assembled->matrix
-                           : mechanics::assemble(space, model.tangents, prescribed).matrix,
-      space);
+    direct
+      = std::make_unique<DirectSolver>(assembled != nullptr
+                                         ? assembled->matrix
+                                         : mechanics::assemble(space, model.tangents, fixed).matrix,
+                                       space);
     preconditioner.reset();
   }
 

@@ -79,9 +79,7 @@ namespace tetradapt::solve
   MixedSolver::check_volume(const Vector &free_pressure)
   {
     Vector u(model.space.vector_layout()), flow(pressures.vector_layout());
-    for (unsigned int node = 0; node < model.space.n_owned_nodes(); ++node)
-      for (unsigned int c = 0; c < 3; ++c)
-        u.local_element(3 * node + c) = model.prescribed.values[model.space.field_node(node)][c];
+    model.fixed.distribute(u);
     divergence.vmult(flow, u);
     // How much the equations want the volume to change, apart from what flows in or out.
     const double change = volume_load * free_pressure - flow * free_pressure;

@@ -53,7 +53,7 @@ namespace tetradapt::solve
                            const core::Log               &log)
     : model(model), parameters(parameters), log(log),
       pressures(model.space, std::make_shared<const mesh::PressureNodes>(model.space.tet_mesh())),
-      divergence(pressures, model.prescribed), mass(pressures, model.materials),
+      divergence(pressures, model.fixed), mass(pressures, model.materials),
       volume_load(mechanics::thermal_volume_load(pressures, model.materials))
   {
     find_free_pressures();
@@ -155,10 +155,8 @@ namespace tetradapt::solve
     Iterate state{{u, volume_load}, {forces, volume_load}, {forces, volume_load}};
     // The load is the residual where nothing moves but what is prescribed.
     state.x.p = 0.;
-    for (unsigned int node = 0; node < model.space.n_owned_nodes(); ++node)
-      for (unsigned int c = 0; c < 3; ++c)
-        state.x.u.local_element(3 * node + c)
-          = model.prescribed.values[model.space.field_node(node)][c];
+    state.x.u = 0.;
+    model.fixed.distribute(state.x.u);
     set_residuals(forces, state);
     const double norm = state.norm;
     if (!std::isfinite(norm))

@@ -14,16 +14,14 @@ namespace tetradapt::solve
     class Transfer
     {
     public:
-      Transfer(const fem::Space                        &fine,
-               const fem::Space                        &coarse,
-               const mechanics::PrescribedDisplacement &prescribed)
-        : parents(fine.n_owned_nodes()), fixed(fine.n_owned_nodes())
+      Transfer(const fem::Space &fine, const fem::Space &coarse, const fem::FixedUnknowns &fixed)
+        : parents(fine.n_owned_nodes()), components(fine.n_owned_nodes())
       {
         const unsigned int n_points = fine.tet_mesh().n_points();
         for (unsigned int node = 0; node < fine.n_owned_nodes(); ++node)
           {
             const unsigned int field_node = fine.field_node(node);
-            fixed[node]                   = prescribed.fixed[field_node];
+            components[node]              = fixed.components(node);
             if (field_node < n_points)
               parents[node].fill(coarse.local_node(field_node));
             else
@@ -42,7 +40,7 @@ namespace tetradapt::solve
         Number             *y = fine.begin();
         for (unsigned int node = 0; node < parents.size(); ++node, y += 3)
           for (unsigned int c = 0; c < 3; ++c)
-            if ((fixed[node] >> c & 1) == 0)
+            if ((components[node] >> c & 1) == 0)
               y[c] += Number(0.5) * (x[3 * parents[node][0] + c] + x[3 * parents[node][1] + c]);
         coarse.zero_out_ghost_values();
       }
@@ -59,7 +57,7 @@ namespace tetradapt::solve
         const Number *from = b.begin(), *less = product.begin();
         for (unsigned int node = 0; node < parents.size(); ++node, from += 3, less += 3)
           for (unsigned int c = 0; c < 3; ++c)
-            if ((fixed[node] >> c & 1) == 0)
+            if ((components[node] >> c & 1) == 0)
               {
                 const Number half = Number(0.5) * (from[c] - less[c]);
                 y[3 * parents[node][0] + c] += half;
@@ -69,8 +67,8 @@ namespace tetradapt::solve
       }
 
     private:
-      std::vector<std::array<unsigned int, 2>> parents; ///< local nodes of the coarse space
-      std::vector<unsigned char>               fixed;
+      std::vector<std::array<unsigned int, 2>> parents;    ///< local nodes of the coarse space
+      std::vector<unsigned char>               components; ///< that are fixed
     };
 
     template <typename Number>
@@ -82,9 +80,9 @@ namespace tetradapt::solve
       PMultigrid(std::unique_ptr<Matrix>                     fine,
                  const fem::Space                           &fine_space,
                  const fem::Space                           &coarse_space,
-                 const mechanics::PrescribedDisplacement    &prescribed,
+                 const fem::FixedUnknowns                   &fixed,
                  std::unique_ptr<ApproximateInverse<Number>> coarse)
-        : matrix(std::move(fine)), transfer(fine_space, coarse_space, prescribed),
+        : matrix(std::move(fine)), transfer(fine_space, coarse_space, fixed),
           coarse_solver(std::move(coarse)),
           smoother(*matrix, invert_blocks<Number, 3>(matrix->diagonal_blocks()), smoother_degree)
       {
@@ -118,23 +116,23 @@ namespace tetradapt::solve
   make_p_multigrid(std::unique_ptr<mechanics::MatrixFreeStiffness<Number>> fine,
                    const fem::Space                                       &fine_space,
                    const fem::Space                                       &coarse_space,
-                   const mechanics::PrescribedDisplacement                &prescribed,
+                   const fem::FixedUnknowns                               &fixed,
                    std::unique_ptr<ApproximateInverse<Number>>             coarse_solver)
   {
     return std::make_unique<PMultigrid<Number>>(
-      std::move(fine), fine_space, coarse_space, prescribed, std::move(coarse_solver));
+      std::move(fine), fine_space, coarse_space, fixed, std::move(coarse_solver));
   }
 
   template std::unique_ptr<ApproximateInverse<float>>
   make_p_multigrid(std::unique_ptr<mechanics::MatrixFreeStiffness<float>>,
                    const fem::Space &,
                    const fem::Space &,
-                   const mechanics::PrescribedDisplacement &,
+                   const fem::FixedUnknowns &,
                    std::unique_ptr<ApproximateInverse<float>>);
   template std::unique_ptr<ApproximateInverse<double>>
   make_p_multigrid(std::unique_ptr<mechanics::MatrixFreeStiffness<double>>,
                    const fem::Space &,
                    const fem::Space &,
-                   const mechanics::PrescribedDisplacement &,
+                   const fem::FixedUnknowns &,
                    std::unique_ptr<ApproximateInverse<double>>);
 } // namespace tetradapt::solve

@@ -217,7 +217,7 @@ namespace tetradapt::solve
     };
 
     std::vector<NodeModes<3>>
-    rigid_modes(const fem::Space &space, const mechanics::PrescribedDisplacement &prescribed)
+    rigid_modes(const fem::Space &space, const fem::FixedUnknowns &fixed)
     {
       const auto               &mesh   = space.tet_mesh();
       const auto                box    = mesh::bounding_box(mesh);
@@ -232,7 +232,7 @@ namespace tetradapt::solve
               const auto motion
                 = mechanics::rigid_motion(k, mesh.points[field_node], centre, length);
               for (unsigned int c = 0; c < 3; ++c)
-                modes[node][6 * c + k] = prescribed.is_fixed(field_node, c) ? 0. : motion[c];
+                modes[node][6 * c + k] = fixed.is_fixed(node, c) ? 0. : motion[c];
             }
         }
       return modes;
@@ -241,25 +241,19 @@ namespace tetradapt::solve
 
   template <typename Number>
   std::unique_ptr<ApproximateInverse<Number>>
-  make_amg(const mechanics::BlockMatrix            &matrix,
-           const fem::Space                        &space,
-           const mechanics::PrescribedDisplacement &prescribed,
-           const double                             scale)
+  make_amg(const mechanics::BlockMatrix &matrix,
+           const fem::Space             &space,
+           const fem::FixedUnknowns     &fixed,
+           const double                  scale)
   {
     return std::make_unique<SmoothedAggregation<Number>>(matrix.rows(),
-                                                         rigid_modes(space, prescribed),
+                                                         rigid_modes(space, fixed),
                                                          space.vector_layout(),
                                                          scale);
   }
 
   template std::unique_ptr<ApproximateInverse<float>>
-  make_amg(const mechanics::BlockMatrix &,
-           const fem::Space &,
-           const mechanics::PrescribedDisplacement &,
-           double);
+  make_amg(const mechanics::BlockMatrix &, const fem::Space &, const fem::FixedUnknowns &, double);
   template std::unique_ptr<ApproximateInverse<double>>
-  make_amg(const mechanics::BlockMatrix &,
-           const fem::Space &,
-           const mechanics::PrescribedDisplacement &,
-           double);
+  make_amg(const mechanics::BlockMatrix &, const fem::Space &, const fem::FixedUnknowns &, double);
 } // namespace tetradapt::solve

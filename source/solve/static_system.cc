@@ -84,7 +84,9 @@ namespace tetradapt::solve
                : nullptr),
         triangulation(*mesh, communicator), tangents(kept ? *kept : materials, *mesh)
     {
-      space = std::make_unique<fem::Space>(triangulation, degree, edges.get());
+      space       = std::make_unique<fem::Space>(triangulation, degree, edges.get());
+      constraints = mechanics::make_constraints(prescribed, *space);
+      fixed       = std::make_unique<fem::FixedUnknowns>(*space, constraints);
       log.progress("assembling " + std::to_string(space->n_dofs()) + " unknowns");
       mechanics::NodalLoads loads
         = mechanics::assemble_loads(scene, kept ? *kept : materials, *space);
@@ -92,14 +94,12 @@ namespace tetradapt::solve
       load_totals = std::move(loads.totals);
       for (const auto &total : load_totals)
         load_resultants.push_back(total.resultant);
-      solver = std::make_unique<LinearSolver>(LinearModel{*space, tangents, prescribed},
+      solver = std::make_unique<LinearSolver>(LinearModel{*space, tangents, constraints},
                                               scene.solver,
                                               log);
       if (materials.is_mixed())
-        mixed_solver
-          = std::make_unique<MixedSolver>(MixedModel{*space, materials, prescribed, *solver},
-                                          scene.solver,
-                                          log);
+        mixed_solver = std::make_unique<MixedSolver>(
+          MixedModel{*space, materials, prescribed, *fixed, *solver}, scene.solver, log);
     }
 
     /** The unknowns with a value of @p free where they are free, if it is not null,
@@ -132,7 +132,9 @@ namespace tetradapt::solve
     fem::Triangulation                      triangulation;
     mechanics::TangentField                 tangents;
     std::unique_ptr<fem::Space>             space;
-    NodalValues                             forces; ///< of the loads, on the nodes owned
+    fem::Constraints                        constraints; ///< of the supports
+    std::unique_ptr<fem::FixedUnknowns>     fixed;       ///< by constraints
+    NodalValues                             forces;      ///< of the loads, on the nodes owned
     std::vector<mechanics::LoadTotal>       load_totals;
     std::vector<mechanics::Resultant>       load_resultants; ///< of load_totals
     std::unique_ptr<LinearSolver>           solver;

@@ -153,12 +153,12 @@ namespace
       product += forces[i] * y[i];
     check("  energy product", product, sum, size, 1e-12);
 
-    const Values diagonal = space.surplus_diagonal();
-    double       largest = 0., error = 0.;
+    const std::vector<double> diagonal = space.surplus_diagonal();
+    double                    largest = 0., error = 0.;
     for (const unsigned int function : {0u, 100u, space.surplus().n_functions() - 1})
       for (unsigned int c = 0; c < 3; ++c)
         {
-          Values unit(space.size(), 0.);
+          Values unit(space.size());
           unit[3 * (space.n_nodes() + function) + c] = 1.;
           space.multiply(unit, forces);
           for (unsigned int d = 0; d < 3; ++d)

@@ -72,6 +72,26 @@ namespace
       }
   }
 
+  /** A linear_part() is the space of degree 1, but for its handler. */
+  void
+  check_linear_part(const fem::Space &quadratic)
+  {
+    const auto       part = fem::Space::linear_part(quadratic);
+    const fem::Space whole(quadratic.triangulation(), 1, nullptr);
+    bool             same = part->touching_cells() == whole.touching_cells()
+                && part->n_owned_nodes() == whole.n_owned_nodes()
+                && part->n_local_nodes() == whole.n_local_nodes()
+                && part->n_dofs() == whole.n_dofs();
+    for (unsigned int k = 0; same && k < whole.touching_cells().size(); ++k)
+      for (unsigned int i = 0; i < 4; ++i)
+        same = same && part->local_nodes_of(k)[i] == whole.local_nodes_of(k)[i];
+    for (unsigned int node = 0; same && node < whole.n_local_nodes(); ++node)
+      same = part->field_node(node) == whole.field_node(node)
+             && part->vector_layout()->local_to_global(3 * node)
+                  == whole.vector_layout()->local_to_global(3 * node);
+    check_everywhere("  its linear part is the space of degree 1", same);
+  }
+
   void
   check_space(const fem::Triangulation &triangulation,
               const unsigned int        degree,
@@ -133,6 +153,8 @@ namespace
       for (unsigned int c = 0; c < 3; ++c)
         whole = whole && field[node][c] == 3. * numbers[node] + c;
     check_everywhere("  gathered on every rank", whole);
+    if (degree == 2)
+      check_linear_part(space);
   }
 } // namespace
 

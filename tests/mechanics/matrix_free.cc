@@ -6,6 +6,7 @@
 #include "tetradapt/fem/triangulation.h"
 #include "tetradapt/mechanics/matrix_free_stiffness.h"
 #include "tetradapt/mechanics/stiffness.h"
+#include "tetradapt/mechanics/supports.h"
 
 #include "bodies.h"
 
@@ -51,14 +52,14 @@ namespace
 
   template <typename Number>
   void
-  compare(const std::string            &name,
-          const fem::Space             &space,
-          const TangentField           &tangents,
-          const PrescribedDisplacement &prescribed,
-          const double                  tolerance)
+  compare(const std::string        &name,
+          const fem::Space         &space,
+          const TangentField       &tangents,
+          const fem::FixedUnknowns &fixed,
+          const double              tolerance)
   {
-    const LinearSystem                assembled = assemble(space, tangents, prescribed);
-    const MatrixFreeStiffness<Number> matrix_free(space, tangents, prescribed);
+    const LinearSystem                assembled = assemble(space, tangents, fixed);
+    const MatrixFreeStiffness<Number> matrix_free(space, tangents, fixed);
     VectorOf<Number>                  x(space.vector_layout()), y(x);
     Vector                            X(space.vector_layout()), Y(X);
     fill(space, x);
@@ -83,8 +84,8 @@ namespace
     for (unsigned int i = 0; i < forces.size(); ++i)
       forces[i] = Tensor<1, 3>({std::sin(i), std::cos(i), 1.});
     check_small("  right-hand side",
-                difference(matrix_free.right_hand_side(prescribed, forces),
-                           right_hand_side(assembled, space, prescribed, forces)),
+                difference(matrix_free.right_hand_side(forces),
+                           right_hand_side(assembled, space, fixed, forces)),
                 tolerance);
   }
 
@@ -117,11 +118,12 @@ main(int argc, char *argv[])
   const fem::Triangulation triangulation(*body, MPI_COMM_WORLD);
   const mesh::EdgeTable    edges = mesh::build_edges(*body);
   const fem::Space         space(triangulation, 2, &edges);
-  const auto               prescribed = prescribe(scene.supports, *body, &edges);
+  const fem::FixedUnknowns fixed(space,
+                                 make_constraints(prescribe(scene.supports, *body, &edges), space));
 
   const TangentField at_rest(materials, *body);
-  compare<double>("one isotropic tangent a region", space, at_rest, prescribed, 1e-13);
-  compare<float>("  in single precision", space, at_rest, prescribed, 1e-5);
+  compare<double>("one isotropic tangent a region", space, at_rest, fixed, 1e-13);
+  compare<float>("  in single precision", space, at_rest, fixed, 1e-5);
 
   std::vector<SymmetricTensor<4, 3>> tensors;
   std::vector<unsigned int>          one, four;
@@ -133,17 +135,17 @@ main(int argc, char *argv[])
       for (unsigned int q = 0; q < 4; ++q)
         four.push_back((cell + q) % 5);
     }
-  compare<double>("one a cell", space, TangentField(tensors, one, 1), prescribed, 1e-13);
-  compare<double>("one a point", space, TangentField(tensors, four, 4), prescribed, 1e-13);
+  compare<double>("one a cell", space, TangentField(tensors, one, 1), fixed, 1e-13);
+  compare<double>("one a point", space, TangentField(tensors, four, 4), fixed, 1e-13);
 
   // The matrix of degree 1 is that of degree 2 on linear displacements.
-  const fem::Space       linear(triangulation, 1, nullptr);
-  const TangentField     tangents(tensors, four, 4);
-  PrescribedDisplacement free_nodes;
-  free_nodes.fixed.assign(space.n_field_nodes(), 0);
-  free_nodes.values.resize(space.n_field_nodes());
-  const LinearSystem                coarse = assemble(linear, tangents, free_nodes);
-  const MatrixFreeStiffness<double> fine(space, tangents, free_nodes);
+  const fem::Space                  linear(triangulation, 1, nullptr);
+  const TangentField                tangents(tensors, four, 4);
+  const fem::FixedUnknowns          none(linear, fem::make_constraints(linear));
+  const LinearSystem                coarse = assemble(linear, tangents, none);
+  const MatrixFreeStiffness<double> fine(space,
+                                         tangents,
+                                         fem::FixedUnknowns(space, fem::make_constraints(space)));
   Vector                            x(linear.vector_layout()), y(x), X(space.vector_layout()), Y(X);
   fill(linear, x);
   for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)

@@ -41,7 +41,8 @@ namespace
     try
       {
         const core::Log           log;
-        const solve::LinearSolver solver({space, tangents, prescribed}, scene.solver, log);
+        const auto                constraints = mechanics::make_constraints(prescribed, space);
+        const solve::LinearSolver solver({space, tangents, constraints}, scene.solver, log);
         std::vector<Tensor<1, 3>> forces(space.n_field_nodes());
         for (unsigned int p = 0; p < body->n_points(); ++p)
           forces[p][2] = -1.; // not in balance

@@ -14,6 +14,11 @@ namespace tetradapt::fem
   Constraints
   make_constraints(const Space &space);
 
+  /** The constraints of degree 1 where the nodes of @p space, of degree 1, have @p constraints
+   * in @p finer, of degree 2 on the same triangulation. Closed if these are. */
+  Constraints
+  restrict_to(const Space &space, const Space &finer, const Constraints &constraints);
+
   /**
    * The unknowns that Constraints fix at a value, in the local numbers of a Space: what kernels
    * take, which work node by node. Local unknown 3 i + c is component c of local node i.
@@ -53,6 +58,9 @@ namespace tetradapt::fem
     {
       return fixed_values;
     }
+    /** Gives the owned unknowns among them their values. */
+    void
+    distribute(Vector &vector) const;
     /** Whether all values on this rank are zero. */
     bool
     is_homogeneous() const;

@@ -40,11 +40,24 @@ namespace tetradapt::fem
      * @throws dealii::ExcNotImplemented for another degree.
      */
     Space(const Triangulation &triangulation, unsigned int degree, const mesh::EdgeTable *edges);
+
+    /**
+     * The displacements of degree 1 on the triangulation of @p quadratic, which are a subspace
+     * of that: for multigrid. Numbered by those of its nodes that are vertices, in their order,
+     * which are the numbers that a DoFHandler would give, without the time that one takes.
+     * Collective. Keeps no reference to @p quadratic.
+     */
+    static std::unique_ptr<Space>
+    linear_part(const Space &quadratic);
+
     ~Space();
+
+    /** @throws dealii::ExcNotInitialized for a linear_part(). */
 
     const dealii::DoFHandler<3, 3> &
     dof_handler() const
     {
+      AssertThrow(handler != nullptr, dealii::ExcNotInitialized());
       return *handler;
     }
     const Triangulation &
@@ -146,12 +159,18 @@ namespace tetradapt::fem
     gather(const Vector &vector, std::vector<dealii::Tensor<1, 3>> &field) const;
 
   private:
+    /** Without any cells and numbers. */
+    Space(const Triangulation &triangulation, const mesh::EdgeTable *edges, unsigned int degree);
     /** Fills cells, and their nodes' numbers on all ranks in @p nodes. */
     void
     list_cells(std::vector<dealii::types::global_dof_index> &nodes);
+    /** The same for a linear_part(). Returns the unknowns of this rank. */
+    dealii::IndexSet
+    list_cells_of(const Space &quadratic, std::vector<dealii::types::global_dof_index> &nodes);
     /** Makes the layout and the tables of local numbers. */
     void
-    number_locally(const std::vector<dealii::types::global_dof_index> &nodes);
+    number_locally(const dealii::IndexSet                             &owned,
+                   const std::vector<dealii::types::global_dof_index> &nodes);
 
     const Triangulation                                       &body;
     const mesh::TetMesh                                       &mesh;
@@ -161,6 +180,7 @@ namespace tetradapt::fem
     std::unique_ptr<dealii::DoFHandler<3, 3>>                  handler;
     unsigned int                                               n_owned = 0;
     std::vector<unsigned int>                                  cells, cell_nodes;
+    std::vector<bool>                                          is_ghost; ///< of cells
     std::vector<unsigned int>                                  field_nodes, local_nodes;
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
   };

@@ -2,8 +2,8 @@
 #ifndef tetradapt_mechanics_divergence_h
 #define tetradapt_mechanics_divergence_h
 
+#include "tetradapt/fem/fixed_unknowns.h"
 #include "tetradapt/mechanics/pressure_space.h"
-#include "tetradapt/mechanics/supports.h"
 
 namespace tetradapt::mechanics
 {
@@ -16,7 +16,7 @@ namespace tetradapt::mechanics
   {
   public:
     /** Keeps no reference. */
-    Divergence(const PressureSpace &space, const PrescribedDisplacement &prescribed);
+    Divergence(const PressureSpace &space, const fem::FixedUnknowns &fixed_unknowns);
 
     /** q_i = -int q_i div u; prescribed displacements in @p u count. Collective. */
     void

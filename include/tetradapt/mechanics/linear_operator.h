@@ -25,6 +25,18 @@ namespace tetradapt::mechanics
     virtual void
     vmult(VectorOf<Number> &destination, const VectorOf<Number> &source) const = 0;
 
+    /** Number of rows, and of columns, over all ranks. */
+    dealii::types::global_dof_index
+    m() const
+    {
+      return vector_layout()->size();
+    }
+    dealii::types::global_dof_index
+    n() const
+    {
+      return m();
+    }
+
     /** Layout of its vectors: owned and ghost unknowns of this rank. */
     virtual const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &
     vector_layout() const = 0;

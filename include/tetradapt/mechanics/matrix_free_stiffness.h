@@ -32,10 +32,10 @@ namespace tetradapt::mechanics
      * @param scale multiplies the matrix; single precision needs entries near one.
      * Keeps a reference to @p space, whose degree must be 2. No communication.
      */
-    MatrixFreeStiffness(const fem::Space             &space,
-                        const TangentField           &tangents,
-                        const PrescribedDisplacement &prescribed,
-                        double                        scale = 1.);
+    MatrixFreeStiffness(const fem::Space         &space,
+                        const TangentField       &tangents,
+                        const fem::FixedUnknowns &fixed,
+                        double                    scale = 1.);
 
     void
     vmult(VectorOf<Number> &destination, const VectorOf<Number> &source) const override;
@@ -57,8 +57,7 @@ namespace tetradapt::mechanics
      * prescribed displacement where unknowns are free, else the diagonal entry times the
      * prescribed value. No communication. */
     VectorOf<Number>
-    right_hand_side(const PrescribedDisplacement            &prescribed,
-                    const std::vector<dealii::Tensor<1, 3>> &forces) const;
+    right_hand_side(const std::vector<dealii::Tensor<1, 3>> &forces) const;
 
   private:
     void
@@ -70,7 +69,7 @@ namespace tetradapt::mechanics
     add_forces(unsigned int begin, unsigned int end, const Number *x, Number *y) const;
 
     const fem::Space               &space;
-    std::vector<unsigned int>       fixed; ///< constrained local unknowns, ascending
+    fem::FixedUnknowns              fixed;
     unsigned int                    n_batches     = 0;
     unsigned int                    n_own_batches = 0; ///< these, first, have no ghosts
     bool                            isotropic, one_tangent;
@@ -78,6 +77,7 @@ namespace tetradapt::mechanics
     std::vector<unsigned char>      at_end; ///< of batches: whether they have the last node
     dealii::AlignedVector<Number>   gradients, tangent_values;
     std::vector<Block>              diagonal;
+    mutable VectorOf<Number>        masked; ///< made where a source has values at fixed unknowns
   };
 } // namespace tetradapt::mechanics
 

@@ -2,8 +2,8 @@
 #ifndef tetradapt_mechanics_stiffness_h
 #define tetradapt_mechanics_stiffness_h
 
+#include "tetradapt/fem/fixed_unknowns.h"
 #include "tetradapt/mechanics/block_matrix.h"
-#include "tetradapt/mechanics/supports.h"
 #include "tetradapt/mechanics/tangent_field.h"
 
 namespace tetradapt::mechanics
@@ -31,9 +31,7 @@ namespace tetradapt::mechanics
    * communication: each rank assembles the complete rows of its nodes.
    */
   LinearSystem
-  assemble(const fem::Space             &space,
-           const TangentField           &tangents,
-           const PrescribedDisplacement &prescribed);
+  assemble(const fem::Space &space, const TangentField &tangents, const fem::FixedUnknowns &fixed);
 
   /** The right-hand side of an assembled system for forces on the nodes of the field:
    * these less those of the prescribed displacement where unknowns are free, else the
@@ -41,7 +39,7 @@ namespace tetradapt::mechanics
   Vector
   right_hand_side(const LinearSystem                      &system,
                   const fem::Space                        &space,
-                  const PrescribedDisplacement            &prescribed,
+                  const fem::FixedUnknowns                &fixed,
                   const std::vector<dealii::Tensor<1, 3>> &forces);
 } // namespace tetradapt::mechanics
 

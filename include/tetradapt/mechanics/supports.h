@@ -2,7 +2,7 @@
 #ifndef tetradapt_mechanics_supports_h
 #define tetradapt_mechanics_supports_h
 
-#include "tetradapt/mesh/nodal_field.h"
+#include "tetradapt/fem/fixed_unknowns.h"
 #include "tetradapt/scene/scene.h"
 
 namespace tetradapt::mechanics
@@ -33,6 +33,11 @@ namespace tetradapt::mechanics
     bool
     is_homogeneous() const;
   };
+
+  /** What supports prescribe as constraints of the unknowns that this rank needs of @p space.
+   * Closed. */
+  fem::Constraints
+  make_constraints(const PrescribedDisplacement &prescribed, const fem::Space &space);
 
   /** The field nodes on a boundary face: 3, or 6 with those of its edges in the
    * order (0,1) (1,2) (2,0). */

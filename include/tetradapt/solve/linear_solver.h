@@ -16,9 +16,9 @@ namespace tetradapt::solve
   /** What a matrix and its coarser levels are built from. */
   struct LinearModel
   {
-    const fem::Space                        &space;
-    const mechanics::TangentField           &tangents;
-    const mechanics::PrescribedDisplacement &prescribed;
+    const fem::Space              &space;
+    const mechanics::TangentField &tangents;
+    const fem::Constraints        &constraints; ///< of the supports, closed
   };
 
   /** When a solution is good enough. */
@@ -121,7 +121,7 @@ namespace tetradapt::solve
 
     LinearModel                                             model;
     const fem::Space                                       &space;
-    const mechanics::PrescribedDisplacement                &prescribed;
+    fem::FixedUnknowns                                      fixed;
     const scene::SolverParameters                          &parameters;
     const core::Log                                        &log;
     std::string                                             description;

@@ -28,7 +28,8 @@ namespace tetradapt::solve
     const fem::Space                        &space; ///< of degree 2
     const mechanics::MaterialMap            &materials;
     const mechanics::PrescribedDisplacement &prescribed;
-    const LinearSolver                      &kept; ///< of kept_scene()
+    const fem::FixedUnknowns                &fixed; ///< the same
+    const LinearSolver                      &kept;  ///< of kept_scene()
   };
 
   /**

@@ -41,10 +41,10 @@ namespace tetradapt::solve
    */
   template <typename Number>
   std::unique_ptr<ApproximateInverse<Number>>
-  make_amg(const mechanics::BlockMatrix            &matrix,
-           const fem::Space                        &space,
-           const mechanics::PrescribedDisplacement &prescribed,
-           double                                   scale);
+  make_amg(const mechanics::BlockMatrix &matrix,
+           const fem::Space             &space,
+           const fem::FixedUnknowns     &fixed,
+           double                        scale);
 
   /**
    * One V-cycle of p-multigrid for a matrix of degree 2: Chebyshev smoothing with
@@ -56,7 +56,7 @@ namespace tetradapt::solve
   make_p_multigrid(std::unique_ptr<mechanics::MatrixFreeStiffness<Number>> fine,
                    const fem::Space                                       &fine_space,
                    const fem::Space                                       &coarse_space,
-                   const mechanics::PrescribedDisplacement                &prescribed,
+                   const fem::FixedUnknowns                               &fixed,
                    std::unique_ptr<ApproximateInverse<Number>>             coarse_solver);
 } // namespace tetradapt::solve
 
