@@ -8,8 +8,8 @@
 #include "tetradapt/compare/stress_difference.h"
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/on_first_rank.h"
+#include "tetradapt/io/vtu_reader.h"
 #include "tetradapt/mesh/mesh_broadcast.h"
-#include "tetradapt/mesh/vtu_reader.h"
 #include "tetradapt/solve/energies.h"
 #include "tetradapt/solve/hexahedral_solution.h"
 #include "tetradapt/solve/static_solution.h"
@@ -301,7 +301,7 @@ namespace tetradapt::compare
       std::vector<dealii::Tensor<1, 3>> values;
       core::on_first_rank(communicator, [&] {
         log.progress("reference: reading " + file);
-        const auto run = mesh::read_displacement_vtu(file);
+        const auto run = io::read_displacement_vtu(file);
         mesh           = run.displacement->mesh();
         degree         = run.displacement->degree();
         values         = run.displacement->values;

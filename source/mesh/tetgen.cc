@@ -244,4 +244,15 @@ namespace tetradapt::mesh
       }
     return refined;
   }
+
+  void
+  warn_of_unmet_wishes(const TetgenReport &report, const core::Log &log)
+  {
+    if (report.cap_reached)
+      log.warning("TetGen stopped at TetGen/Steiner points, before the wanted sizes were reached.");
+    if (report.oversized_cells > 0)
+      log.warning(std::to_string(report.oversized_cells)
+                  + " tetrahedra are larger than asked for (look at TetGen/Keep boundary and "
+                    "Steiner points).");
+  }
 } // namespace tetradapt::mesh

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/report/vtu_series.h"
 
-#include "tetradapt/mesh/vtu_writer.h"
+#include "tetradapt/io/vtu_writer.h"
 #include "tetradapt/report/cell_stress.h"
 #include "tetradapt/report/record_columns.h"
 
@@ -93,7 +93,7 @@ namespace tetradapt::report
   void
   VtuSeries::write_cycle(const adapt::CycleEvent &event, const std::string &path) const
   {
-    mesh::VtuWriter writer(event.displacement);
+    io::VtuWriter writer(event.displacement);
     if (event.nodal_ren != nullptr)
       writer.add_point_data("REN", 1, *event.nodal_ren);
     writer.add_regions();
