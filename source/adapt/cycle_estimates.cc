@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/adapt/cycle_estimates.h"
 
-#include "tetradapt/compare/stress_difference.h"
+#include "tetradapt/compare/root_of_squares.h"
 #include "tetradapt/estimate/goal_functional.h"
 #include "tetradapt/estimate/load_oscillations.h"
 

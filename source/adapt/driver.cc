@@ -8,6 +8,7 @@
 #include "tetradapt/adapt/solution_record.h"
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/on_first_rank.h"
+#include "tetradapt/estimate/recovery/recovery.h"
 #include "tetradapt/mesh/mesh_checks.h"
 
 #include <algorithm>
@@ -155,9 +156,15 @@ namespace tetradapt::adapt
   {
     if (!plan.uses_reference())
       return;
-    const auto scope = timer.scope("reference");
-    reference        = std::make_unique<compare::Reference>(
-      compare::make_reference(scene, *materials, mesh, communicator, log, excluded));
+    const auto scope       = timer.scope("reference");
+    const auto cell_errors = [](const mesh::NodalField       &solution,
+                                const mechanics::MaterialMap &materials,
+                                MPI_Comm                      communicator,
+                                const scene::Scene           *scene) {
+      return estimate::recovery_estimate(solution, materials, communicator, scene).cell_energy;
+    };
+    reference = std::make_unique<compare::Reference>(
+      compare::make_reference(scene, *materials, mesh, communicator, log, cell_errors, excluded));
     sampling = std::make_shared<compare::ReferenceSampling>(reference->displacement,
                                                             *materials,
                                                             communicator,

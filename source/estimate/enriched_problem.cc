@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/estimate/enriched_problem.h"
 
-#include "tetradapt/compare/given_loads.h"
 #include "tetradapt/compare/parallel.h"
 #include "tetradapt/compare/tet_quadrature.h"
 #include "tetradapt/core/exceptions.h"
+#include "tetradapt/estimate/given_loads.h"
 #include "tetradapt/solve/conjugate_gradients.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -117,7 +117,7 @@ namespace tetradapt::estimate
           }
       }
 
-      const compare::GivenLoads     loads;
+      const GivenLoads              loads;
       const mechanics::MaterialMap &materials;
       const EnrichedSpace          &space;
       const HierarchicalSurplus    &surplus;

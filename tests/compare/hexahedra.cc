@@ -224,7 +224,8 @@ namespace
     MPI_Barrier(MPI_COMM_WORLD);
     const auto mesh = std::make_shared<mesh::TetMesh>(io::make_mesh(scene, 0, core::Log()));
     const mechanics::MaterialMap materials(scene, *mesh);
-    const auto make   = [&] { return make_reference(scene, materials, mesh, MPI_COMM_WORLD, {}); };
+    const auto                   make
+      = [&] { return make_reference(scene, materials, mesh, MPI_COMM_WORLD, {}, {}); };
     const Reference a = make(), b = make();
     const auto     &u = *a.displacement.hexahedra, &v = *b.displacement.hexahedra;
     check("solved, then reused", !a.from_cache && b.from_cache);

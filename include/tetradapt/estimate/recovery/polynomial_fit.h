@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#ifndef tetradapt_compare_polynomial_fit_h
-#define tetradapt_compare_polynomial_fit_h
+#ifndef tetradapt_estimate_recovery_polynomial_fit_h
+#define tetradapt_estimate_recovery_polynomial_fit_h
 
 #include "tetradapt/core/clones.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace tetradapt::compare
+namespace tetradapt::estimate
 {
   /** Numbers of monomials in three variables up to degree 0, 1 and 2. */
   constexpr unsigned int n_monomials[3] = {1, 4, 10};
@@ -99,6 +99,6 @@ namespace tetradapt::compare
     for (unsigned int i = 0; i < n; ++i)
       x[i] *= scale[i];
   }
-} // namespace tetradapt::compare
+} // namespace tetradapt::estimate
 
 #endif

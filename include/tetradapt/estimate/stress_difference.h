@@ -1,31 +1,31 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#ifndef tetradapt_compare_stress_difference_h
-#define tetradapt_compare_stress_difference_h
+#ifndef tetradapt_estimate_stress_difference_h
+#define tetradapt_estimate_stress_difference_h
 
-#include "tetradapt/compare/cell_stress.h"
 #include "tetradapt/compare/field_evaluator.h"
 #include "tetradapt/compare/parallel.h"
 #include "tetradapt/compare/tet_quadrature.h"
+#include "tetradapt/estimate/cell_stress.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace tetradapt::compare
+namespace tetradapt::estimate
 {
   /** stress_difference() in one cell. */
   template <typename Stress>
   double
-  stress_difference_in(const mesh::TetMesh &mesh,
-                       const CellStress    &stress,
-                       const Stress        &better,
-                       const TetQuadrature &rule,
-                       const unsigned int   cell)
+  stress_difference_in(const mesh::TetMesh          &mesh,
+                       const CellStress             &stress,
+                       const Stress                 &better,
+                       const compare::TetQuadrature &rule,
+                       const unsigned int            cell)
   {
     const ElasticMatrices &matrices = stress.materials()[cell];
     double                 sum      = 0.;
     for (unsigned int q = 0; q < rule.points.size(); ++q)
       {
-        const Point<3> point = position(mesh, cell, rule.points[q]);
+        const Point<3> point = compare::position(mesh, cell, rule.points[q]);
         double         s[6], difference[6];
         stress.at(cell, rule.points[q], point, s);
         better(cell, rule.points[q], point, difference);
@@ -45,31 +45,21 @@ namespace tetradapt::compare
    */
   template <typename Stress>
   std::vector<double>
-  stress_difference(const mesh::TetMesh &mesh,
-                    const CellStress    &stress,
-                    const Stress        &better,
-                    const TetQuadrature &rule,
-                    const MPI_Comm       communicator)
+  stress_difference(const mesh::TetMesh          &mesh,
+                    const CellStress             &stress,
+                    const Stress                 &better,
+                    const compare::TetQuadrature &rule,
+                    const MPI_Comm                communicator)
   {
     std::vector<double> result(mesh.n_cells(), 0.);
-    together(communicator, [&] {
-      const Slice slice = own_slice(mesh.n_cells(), communicator);
+    compare::together(communicator, [&] {
+      const compare::Slice slice = compare::own_slice(mesh.n_cells(), communicator);
       for (unsigned int cell = slice.begin; cell < slice.end; ++cell)
         result[cell] = stress_difference_in(mesh, stress, better, rule, cell);
     });
-    gather_slices(result, mesh.n_cells(), 1, communicator);
+    compare::gather_slices(result, mesh.n_cells(), 1, communicator);
     return result;
   }
-
-  /** Root of the sum of squares. */
-  inline double
-  root_of_squares(const std::vector<double> &values)
-  {
-    double sum = 0.;
-    for (const double v : values)
-      sum += v * v;
-    return std::sqrt(sum);
-  }
-} // namespace tetradapt::compare
+} // namespace tetradapt::estimate
 
 #endif

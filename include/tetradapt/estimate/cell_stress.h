@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#ifndef tetradapt_compare_cell_stress_h
-#define tetradapt_compare_cell_stress_h
+#ifndef tetradapt_estimate_cell_stress_h
+#define tetradapt_estimate_cell_stress_h
 
 #include "tetradapt/mechanics/material_map.h"
 #include "tetradapt/mesh/nodal_field.h"
 
-namespace tetradapt::compare
+namespace tetradapt::estimate
 {
   using dealii::Point;
   using dealii::Tensor;
@@ -152,6 +152,6 @@ namespace tetradapt::compare
     bool                          thermal;
     std::vector<double>           values;
   };
-} // namespace tetradapt::compare
+} // namespace tetradapt::estimate
 
 #endif

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "tetradapt/compare/stress_conditions.h"
+#include "stress_conditions.h"
 
 #include "tetradapt/compare/field_evaluator.h"
 #include "tetradapt/mesh/true_surface.h"
 
 #include <algorithm>
 
-namespace tetradapt::compare
+namespace tetradapt::estimate
 {
   namespace
   {
@@ -212,7 +212,8 @@ namespace tetradapt::compare
       {
         forces.resize(mesh.n_cells());
         for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
-          forces[cell] = loads.body_force(cell, position(mesh, cell, {{.25, .25, .25, .25}}));
+          forces[cell]
+            = loads.body_force(cell, compare::position(mesh, cell, {{.25, .25, .25, .25}}));
       }
   }
-} // namespace tetradapt::compare
+} // namespace tetradapt::estimate

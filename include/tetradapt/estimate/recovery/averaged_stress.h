@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#ifndef tetradapt_compare_averaged_stress_h
-#define tetradapt_compare_averaged_stress_h
+#ifndef tetradapt_estimate_recovery_averaged_stress_h
+#define tetradapt_estimate_recovery_averaged_stress_h
 
-#include "tetradapt/compare/cell_stress.h"
-#include "tetradapt/compare/given_loads.h"
+#include "tetradapt/estimate/cell_stress.h"
+#include "tetradapt/estimate/given_loads.h"
 
 #include <mpi.h>
 
-namespace tetradapt::compare
+namespace tetradapt::estimate
 {
   /**
    * The stress of Zienkiewicz and Zhu (IJNME 24, 1987): at every node the mean of the
@@ -52,6 +52,6 @@ namespace tetradapt::compare
     std::vector<unsigned int> slots; ///< per cell and node: which mean it has
     std::vector<double>       means; ///< six numbers each
   };
-} // namespace tetradapt::compare
+} // namespace tetradapt::estimate
 
 #endif

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#ifndef tetradapt_compare_patch_moments_h
-#define tetradapt_compare_patch_moments_h
+#ifndef tetradapt_estimate_recovery_patch_moments_h
+#define tetradapt_estimate_recovery_patch_moments_h
 
-#include "tetradapt/compare/lane_cholesky.h"
-#include "tetradapt/compare/polynomial_fit.h"
-#include "tetradapt/compare/stress_samples.h"
+#include "lane_cholesky.h"
+#include "stress_samples.h"
+
+#include "tetradapt/estimate/recovery/polynomial_fit.h"
 
 #include <deal.II/base/aligned_vector.h>
 
-namespace tetradapt::compare
+namespace tetradapt::estimate
 {
   /** The samples of the cells of a patch, copied side by side: coordinates and stresses. */
   class PatchSamples
@@ -162,6 +163,6 @@ namespace tetradapt::compare
     }
 #pragma GCC diagnostic pop
   };
-} // namespace tetradapt::compare
+} // namespace tetradapt::estimate
 
 #endif

@@ -5,14 +5,14 @@
 // meet tractions, supports and body forces; and on the uniform mesh, where centroids
 // are superconvergent, the estimate is the true error.
 
-#include "tetradapt/compare/recovery.h"
+#include "tetradapt/estimate/recovery/recovery.h"
 #include "tetradapt/compare/difference.h"
 #include "tetradapt/compare/exact_solution.h"
 
 #include "tetradapt/mesh/bricks.h"
 #include "tetradapt/mesh/selection.h"
 
-#include "test_meshes.h"
+#include "../compare/test_meshes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +20,7 @@
 
 using namespace test_meshes;
 using namespace tetradapt::compare;
+using namespace tetradapt::estimate;
 
 namespace
 {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "tetradapt/compare/recovery_patches.h"
+#include "tetradapt/estimate/recovery/patches.h"
 
 #include "tetradapt/compare/field_evaluator.h"
 
 #include <algorithm>
 
-namespace tetradapt::compare
+namespace tetradapt::estimate
 {
+  using dealii::Point;
+
   RecoveryPatches::RecoveryPatches(const mesh::TetMesh &mesh)
     : cells(4 * mesh.cells.size()), of_cell(mesh.n_cells())
   {
@@ -91,7 +93,7 @@ namespace tetradapt::compare
       distances.push_back(
         std::binary_search(own.begin(), own.end(), cell)
           ? 0.
-          : position(mesh, cell, {{.25, .25, .25, .25}}).distance_square(vertex_point));
+          : compare::position(mesh, cell, {{.25, .25, .25, .25}}).distance_square(vertex_point));
     std::vector<double> sorted = distances;
     std::nth_element(sorted.begin(), sorted.begin() + (n_cells - 1), sorted.end());
     // Equal distances differ by rounding only.
@@ -118,4 +120,4 @@ namespace tetradapt::compare
       }
     return dealii::numbers::invalid_unsigned_int; // not in a finalized mesh
   }
-} // namespace tetradapt::compare
+} // namespace tetradapt::estimate

@@ -5,12 +5,12 @@
 
 #include "tetradapt/compare/parallel.h"
 #include "tetradapt/compare/difference.h"
-#include "tetradapt/compare/recovery.h"
 #include "tetradapt/core/exceptions.h"
+#include "tetradapt/estimate/recovery/recovery.h"
 
 
 
-#include "test_meshes.h"
+#include "../compare/test_meshes.h"
 
 #include <deal.II/base/mpi.h>
 
@@ -19,6 +19,7 @@
 
 using namespace test_meshes;
 using namespace tetradapt::compare;
+using namespace tetradapt::estimate;
 
 namespace
 {

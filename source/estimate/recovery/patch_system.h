@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#ifndef tetradapt_compare_patch_system_h
-#define tetradapt_compare_patch_system_h
+#ifndef tetradapt_estimate_recovery_patch_system_h
+#define tetradapt_estimate_recovery_patch_system_h
 
-#include "tetradapt/compare/patch_moments.h"
-#include "tetradapt/compare/stress_conditions.h"
+#include "patch_moments.h"
+#include "stress_conditions.h"
 
-namespace tetradapt::compare
+namespace tetradapt::estimate
 {
   /**
    * The equations of one patch of PatchSolver, which says what they are, in plain arrays. All
@@ -385,6 +385,6 @@ namespace tetradapt::compare
     All    matrix;                           ///< for all coefficients together
     alignas(64) Lanes right[All::n_vectors];
   };
-} // namespace tetradapt::compare
+} // namespace tetradapt::estimate
 
 #endif

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "tetradapt/compare/recovery.h"
+#include "tetradapt/estimate/recovery/recovery.h"
 
-#include "tetradapt/compare/patch_solver.h"
-#include "tetradapt/compare/recovery_difference.h"
-#include "tetradapt/compare/stress_difference.h"
+#include "difference.h"
+#include "patch_solver.h"
+
+#include "tetradapt/compare/root_of_squares.h"
+#include "tetradapt/estimate/stress_difference.h"
 #include "tetradapt/mesh/space_curve.h"
 
 #include <memory>
 
-namespace tetradapt::compare
+namespace tetradapt::estimate
 {
   namespace
   {
@@ -98,7 +100,9 @@ namespace tetradapt::compare
     /** The patches of a slice in an order in which neighbours come soon after each other, so
      * that the samples that they share are still in the cache. */
     std::vector<unsigned int>
-    along_curve(const mesh::TetMesh &mesh, const RecoveryPatches &patches, const Slice &slice)
+    along_curve(const mesh::TetMesh   &mesh,
+                const RecoveryPatches &patches,
+                const compare::Slice  &slice)
     {
       std::vector<Point<3>> centers;
       for (unsigned int patch = slice.begin; patch < slice.end; ++patch)
@@ -118,12 +122,12 @@ namespace tetradapt::compare
                 const StressConditions *conditions,
                 MPI_Comm                communicator)
     {
-      constexpr unsigned int n_numbers = 1 + 6 * n_monomials[degree];
-      const TetQuadrature   &rule      = tet_quadrature(degree);
-      const StressSamples    samples(mesh, stress, rule);
-      const auto             fits = std::make_unique<PatchFits<degree>>(
+      constexpr unsigned int        n_numbers = 1 + 6 * n_monomials[degree];
+      const compare::TetQuadrature &rule      = compare::tet_quadrature(degree);
+      const StressSamples           samples(mesh, stress, rule);
+      const auto                    fits = std::make_unique<PatchFits<degree>>(
         mesh, patches, samples, stress.materials(), conditions);
-      const Slice               slice = own_slice(patches.size(), communicator);
+      const compare::Slice      slice = compare::own_slice(patches.size(), communicator);
       std::vector<double>       result(std::size_t(patches.size()) * n_numbers, 0.);
       std::vector<unsigned int> cells;
       for (const unsigned int patch : along_curve(mesh, patches, slice))
@@ -138,14 +142,17 @@ namespace tetradapt::compare
                                    MPI_Comm                communicator)
     : mesh(u_h.mesh()), linear(u_h.degree() == 1), patches(u_h.mesh())
   {
-    together(communicator, [&] {
+    compare::together(communicator, [&] {
       std::unique_ptr<const StressConditions> conditions;
       if (loads != nullptr)
         conditions = std::make_unique<const StressConditions>(u_h, stress, patches, *loads);
       polynomials = linear ? fit_patches<1>(mesh, patches, stress, conditions.get(), communicator)
                            : fit_patches<2>(mesh, patches, stress, conditions.get(), communicator);
     });
-    gather_slices(polynomials, patches.size(), polynomials.size() / patches.size(), communicator);
+    compare::gather_slices(polynomials,
+                           patches.size(),
+                           polynomials.size() / patches.size(),
+                           communicator);
   }
 
   RecoveryEstimate
@@ -158,10 +165,10 @@ namespace tetradapt::compare
     std::unique_ptr<GivenLoads> loads;
     if (scene != nullptr)
       loads = std::make_unique<GivenLoads>(*scene, materials, u_h.mesh());
-    const RecoveredStress recovered(u_h, stress, loads.get(), communicator);
-    RecoveryEstimate      result;
-    const TetQuadrature  &rule    = tet_quadrature(u_h.degree() == 1 ? 2 : 5);
-    const unsigned int    n_cells = u_h.mesh().n_cells();
+    const RecoveredStress         recovered(u_h, stress, loads.get(), communicator);
+    RecoveryEstimate              result;
+    const compare::TetQuadrature &rule    = compare::tet_quadrature(u_h.degree() == 1 ? 2 : 5);
+    const unsigned int            n_cells = u_h.mesh().n_cells();
     if (stress.has_thermal_strain())
       result.cell_energy = stress_difference(
         u_h.mesh(),
@@ -174,15 +181,15 @@ namespace tetradapt::compare
     else
       {
         result.cell_energy.assign(n_cells, 0.);
-        together(communicator, [&] {
+        compare::together(communicator, [&] {
           const RecoveryDifference difference(u_h.mesh(), stress, recovered, rule);
-          const Slice              slice = own_slice(n_cells, communicator);
+          const compare::Slice     slice = compare::own_slice(n_cells, communicator);
           for (unsigned int cell = slice.begin; cell < slice.end; ++cell)
             result.cell_energy[cell] = difference(cell);
         });
-        gather_slices(result.cell_energy, n_cells, 1, communicator);
+        compare::gather_slices(result.cell_energy, n_cells, 1, communicator);
       }
-    result.global = root_of_squares(result.cell_energy);
+    result.global = compare::root_of_squares(result.cell_energy);
     return result;
   }
-} // namespace tetradapt::compare
+} // namespace tetradapt::estimate

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "tetradapt/compare/given_loads.h"
+#include "tetradapt/estimate/given_loads.h"
 
 #include <algorithm>
 
-namespace tetradapt::compare
+namespace tetradapt::estimate
 {
   GivenLoads::GivenLoads(const scene::Scene           &scene,
                          const mechanics::MaterialMap &materials,
@@ -103,4 +103,4 @@ namespace tetradapt::compare
       return force.second->is_constant(mesh.regions[cell]);
     });
   }
-} // namespace tetradapt::compare
+} // namespace tetradapt::estimate

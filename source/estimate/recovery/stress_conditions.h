@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#ifndef tetradapt_compare_stress_conditions_h
-#define tetradapt_compare_stress_conditions_h
+#ifndef tetradapt_estimate_recovery_stress_conditions_h
+#define tetradapt_estimate_recovery_stress_conditions_h
 
-#include "tetradapt/compare/cell_stress.h"
-#include "tetradapt/compare/given_loads.h"
-#include "tetradapt/compare/recovery_patches.h"
+#include "tetradapt/estimate/cell_stress.h"
+#include "tetradapt/estimate/given_loads.h"
+#include "tetradapt/estimate/recovery/patches.h"
 #include "tetradapt/mesh/face_table.h"
 
-namespace tetradapt::compare
+namespace tetradapt::estimate
 {
   /**
    * What a recovered stress should satisfy apart from being close to the computed one, as
@@ -78,6 +78,6 @@ namespace tetradapt::compare
     std::vector<Face>         faces;          ///< sorted by cells
     std::vector<Tensor<1, 3>> forces;         ///< body force in the cells' centres; empty: none
   };
-} // namespace tetradapt::compare
+} // namespace tetradapt::estimate
 
 #endif

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#ifndef tetradapt_compare_lane_cholesky_h
-#define tetradapt_compare_lane_cholesky_h
+#ifndef tetradapt_estimate_recovery_lane_cholesky_h
+#define tetradapt_estimate_recovery_lane_cholesky_h
 
 #include "tetradapt/core/clones.h"
 #include "tetradapt/core/lanes.h"
 
 #include <cmath>
 
-namespace tetradapt::compare
+namespace tetradapt::estimate
 {
   /** The sums over the lanes of eight vectors. */
   TETRADAPT_INLINE core::Lanes
@@ -219,6 +219,6 @@ namespace tetradapt::compare
     alignas(64) core::Lanes columns[n][n_vectors];
     double scale[n], inverse_pivots[n];
   };
-} // namespace tetradapt::compare
+} // namespace tetradapt::estimate
 
 #endif

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#ifndef tetradapt_compare_stress_samples_h
-#define tetradapt_compare_stress_samples_h
+#ifndef tetradapt_estimate_recovery_stress_samples_h
+#define tetradapt_estimate_recovery_stress_samples_h
 
-#include "tetradapt/compare/cell_stress.h"
 #include "tetradapt/compare/tet_quadrature.h"
+#include "tetradapt/estimate/cell_stress.h"
 
-namespace tetradapt::compare
+namespace tetradapt::estimate
 {
   /** The stresses of a solution at the same few points of every cell. */
   class StressSamples
@@ -15,7 +15,9 @@ namespace tetradapt::compare
     static constexpr unsigned int n_numbers = 9;
 
     /** At the points of @p rule. */
-    StressSamples(const mesh::TetMesh &mesh, const CellStress &stress, const TetQuadrature &rule);
+    StressSamples(const mesh::TetMesh          &mesh,
+                  const CellStress             &stress,
+                  const compare::TetQuadrature &rule);
 
     unsigned int
     n_a_cell() const
@@ -34,6 +36,6 @@ namespace tetradapt::compare
     unsigned int        n_points;
     std::vector<double> values;
   };
-} // namespace tetradapt::compare
+} // namespace tetradapt::estimate
 
 #endif

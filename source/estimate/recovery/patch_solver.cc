@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "tetradapt/compare/patch_solver.h"
+#include "patch_solver.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-namespace tetradapt::compare
+namespace tetradapt::estimate
 {
   void
   PatchSamples::gather(const StressSamples &samples, const std::vector<unsigned int> &cells)
@@ -169,4 +169,4 @@ namespace tetradapt::compare
   template class PatchSolver<0>;
   template class PatchSolver<1>;
   template class PatchSolver<2>;
-} // namespace tetradapt::compare
+} // namespace tetradapt::estimate

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "tetradapt/compare/cell_stress.h"
+#include "tetradapt/estimate/cell_stress.h"
 
 #include "tetradapt/compare/field_evaluator.h"
 
@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace tetradapt::compare
+namespace tetradapt::estimate
 {
   namespace
   {
@@ -88,7 +88,7 @@ namespace tetradapt::compare
         const ElasticMatrices &matrices = cell_materials[cell];
         if (linear)
           {
-            const auto gradients = vertex_gradients(u_h, cell);
+            const auto gradients = compare::vertex_gradients(u_h, cell);
             for (unsigned int i = 0; i < 4; ++i)
               {
                 double *const stress = &values[24 * std::size_t(cell) + 6 * i];
@@ -120,4 +120,4 @@ namespace tetradapt::compare
     for (unsigned int a = 0; a < 6; ++a)
       stress[a] -= thermal[a];
   }
-} // namespace tetradapt::compare
+} // namespace tetradapt::estimate

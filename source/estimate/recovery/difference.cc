@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "tetradapt/compare/recovery_difference.h"
+#include "difference.h"
 
 #include "tetradapt/core/clones.h"
 
 #include <cmath>
 #include <stdexcept>
 
-namespace tetradapt::compare
+namespace tetradapt::estimate
 {
   namespace
   {
@@ -94,10 +94,10 @@ namespace tetradapt::compare
     }
   } // namespace
 
-  RecoveryDifference::RecoveryDifference(const mesh::TetMesh   &mesh,
-                                         const CellStress      &stress,
-                                         const RecoveredStress &recovered,
-                                         const TetQuadrature   &rule)
+  RecoveryDifference::RecoveryDifference(const mesh::TetMesh          &mesh,
+                                         const CellStress             &stress,
+                                         const RecoveredStress        &recovered,
+                                         const compare::TetQuadrature &rule)
     : mesh(mesh), stress(stress), recovered(recovered), linear(recovered.degree() == 1)
   {
     if (rule.points.size() > n_vectors * core::n_lanes)
@@ -131,4 +131,4 @@ namespace tetradapt::compare
       = linear ? mean_density_linear(numbers, lanes) : mean_density_quadratic(numbers, lanes);
     return std::sqrt(std::max(mean, 0.) * mesh::cell_volume(mesh, cell));
   }
-} // namespace tetradapt::compare
+} // namespace tetradapt::estimate

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#ifndef tetradapt_compare_recovery_h
-#define tetradapt_compare_recovery_h
+#ifndef tetradapt_estimate_recovery_recovery_h
+#define tetradapt_estimate_recovery_recovery_h
 
-#include "tetradapt/compare/cell_stress.h"
-#include "tetradapt/compare/given_loads.h"
-#include "tetradapt/compare/polynomial_fit.h"
-#include "tetradapt/compare/recovery_patches.h"
+#include "tetradapt/estimate/cell_stress.h"
+#include "tetradapt/estimate/given_loads.h"
+#include "tetradapt/estimate/recovery/patches.h"
+#include "tetradapt/estimate/recovery/polynomial_fit.h"
 
 #include <mpi.h>
 
-namespace tetradapt::compare
+namespace tetradapt::estimate
 {
   /**
    * Superconvergent patch recovery (Zienkiewicz and Zhu, IJNME 33, 1992) with the
@@ -161,6 +161,6 @@ namespace tetradapt::compare
                     const mechanics::MaterialMap &materials,
                     MPI_Comm                      communicator,
                     const scene::Scene           *scene = nullptr);
-} // namespace tetradapt::compare
+} // namespace tetradapt::estimate
 
 #endif

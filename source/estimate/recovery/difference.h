@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#ifndef tetradapt_compare_recovery_difference_h
-#define tetradapt_compare_recovery_difference_h
+#ifndef tetradapt_estimate_recovery_difference_h
+#define tetradapt_estimate_recovery_difference_h
 
-#include "tetradapt/compare/recovery.h"
 #include "tetradapt/compare/tet_quadrature.h"
 #include "tetradapt/core/lanes.h"
+#include "tetradapt/estimate/recovery/recovery.h"
 
-namespace tetradapt::compare
+namespace tetradapt::estimate
 {
   /**
    * The integral of the complementary energy density of s* - s_h over one cell after the
@@ -21,10 +21,10 @@ namespace tetradapt::compare
      * @param stress without thermal strain.
      * @param rule with at most 16 points; more throw std::invalid_argument.
      */
-    RecoveryDifference(const mesh::TetMesh   &mesh,
-                       const CellStress      &stress,
-                       const RecoveredStress &recovered,
-                       const TetQuadrature   &rule);
+    RecoveryDifference(const mesh::TetMesh          &mesh,
+                       const CellStress             &stress,
+                       const RecoveredStress        &recovered,
+                       const compare::TetQuadrature &rule);
 
     /** The root of the integral over @p cell. */
     double
@@ -55,6 +55,6 @@ namespace tetradapt::compare
     bool                   linear; ///< polynomials, else quadratic
     Rule                   lanes;
   };
-} // namespace tetradapt::compare
+} // namespace tetradapt::estimate
 
 #endif

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#ifndef tetradapt_compare_recovery_patches_h
-#define tetradapt_compare_recovery_patches_h
+#ifndef tetradapt_estimate_recovery_patches_h
+#define tetradapt_estimate_recovery_patches_h
 
 #include "tetradapt/mesh/tet_mesh.h"
 
-namespace tetradapt::compare
+namespace tetradapt::estimate
 {
   /**
    * The cells around every vertex, region by region: a vertex where three regions
@@ -45,6 +45,6 @@ namespace tetradapt::compare
     unsigned int
     cell_of_face(const mesh::TetMesh &mesh, unsigned int face) const;
   };
-} // namespace tetradapt::compare
+} // namespace tetradapt::estimate
 
 #endif

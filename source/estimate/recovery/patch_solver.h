@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#ifndef tetradapt_compare_patch_solver_h
-#define tetradapt_compare_patch_solver_h
+#ifndef tetradapt_estimate_recovery_patch_solver_h
+#define tetradapt_estimate_recovery_patch_solver_h
 
-#include "tetradapt/compare/patch_system.h"
+#include "patch_system.h"
 
-namespace tetradapt::compare
+namespace tetradapt::estimate
 {
   /**
    * Fits a polynomial of degree @p degree to the stresses at the sampling points of a
@@ -72,6 +72,6 @@ namespace tetradapt::compare
   extern template class PatchSolver<0>;
   extern template class PatchSolver<1>;
   extern template class PatchSolver<2>;
-} // namespace tetradapt::compare
+} // namespace tetradapt::estimate
 
 #endif

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#ifndef tetradapt_compare_given_loads_h
-#define tetradapt_compare_given_loads_h
+#ifndef tetradapt_estimate_given_loads_h
+#define tetradapt_estimate_given_loads_h
 
 #include "tetradapt/mechanics/material_map.h"
 #include "tetradapt/mechanics/surface_loads.h"
 #include "tetradapt/mechanics/volume_density.h"
 
-namespace tetradapt::compare
+namespace tetradapt::estimate
 {
   using dealii::Point;
   using dealii::Tensor;
@@ -146,6 +146,6 @@ namespace tetradapt::compare
             visit(point.b, point.weight, point.value);
         }
   }
-} // namespace tetradapt::compare
+} // namespace tetradapt::estimate
 
 #endif

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "tetradapt/compare/averaged_stress.h"
+#include "tetradapt/estimate/recovery/averaged_stress.h"
+
+#include "stress_conditions.h"
 
 #include "tetradapt/compare/field_evaluator.h"
-#include "tetradapt/compare/polynomial_fit.h"
-#include "tetradapt/compare/stress_conditions.h"
+#include "tetradapt/estimate/recovery/polynomial_fit.h"
 
-namespace tetradapt::compare
+namespace tetradapt::estimate
 {
   namespace
   {
@@ -78,7 +79,7 @@ namespace tetradapt::compare
         for (unsigned int i = 0; i < n_per_cell; ++i)
           {
             double s[6];
-            stress.at(cell, places[i], position(mesh, cell, places[i]), s);
+            stress.at(cell, places[i], compare::position(mesh, cell, places[i]), s);
             const unsigned int slot = slots[std::size_t(cell) * n_per_cell + i];
             volumes[slot] += volume;
             for (unsigned int c = 0; c < 6; ++c)
@@ -151,4 +152,4 @@ namespace tetradapt::compare
         std::copy(problem.right, problem.right + 6, mean);
       }
   }
-} // namespace tetradapt::compare
+} // namespace tetradapt::estimate
