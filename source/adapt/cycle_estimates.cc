@@ -2,8 +2,8 @@
 #include "tetradapt/adapt/cycle_estimates.h"
 
 #include "tetradapt/compare/root_of_squares.h"
+#include "tetradapt/estimate/equilibrated/equilibrated.h"
 #include "tetradapt/estimate/goal_functional.h"
-#include "tetradapt/estimate/load_oscillations.h"
 
 #include <algorithm>
 #include <chrono>

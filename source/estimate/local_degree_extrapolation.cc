@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/compare/root_of_squares.h"
 #include "tetradapt/estimate/cell_stress.h"
-#include "tetradapt/estimate/enriched_problem.h"
+#include "tetradapt/estimate/enriched/enriched_problem.h"
 #include "tetradapt/estimate/extrapolation.h"
 #include "tetradapt/estimate/stress_difference.h"
 #include "tetradapt/mesh/face_table.h"
