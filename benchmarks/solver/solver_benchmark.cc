@@ -18,7 +18,7 @@
 #include "tetradapt/mechanics/stiffness.h"
 #include "tetradapt/mesh/bricks.h"
 #include "tetradapt/mesh/face_selectors.h"
-#include "tetradapt/mesh/mesh_checks.h"
+#include "tetradapt/mesh/finalize.h"
 #include "tetradapt/mesh/selection.h"
 #include "tetradapt/scene/scene.h"
 #include "tetradapt/solve/block_rows.h"

@@ -9,7 +9,7 @@
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/on_first_rank.h"
 #include "tetradapt/estimate/recovery/recovery.h"
-#include "tetradapt/mesh/mesh_checks.h"
+#include "tetradapt/mesh/finalize.h"
 
 #include <algorithm>
 #include <cmath>

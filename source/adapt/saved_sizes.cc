@@ -3,7 +3,7 @@
 
 #include "tetradapt/io/vtu_file.h"
 #include "tetradapt/io/vtu_reader.h"
-#include "tetradapt/mesh/mesh_checks.h"
+#include "tetradapt/mesh/finalize.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/io/mesh_builder.h"
 
-#include "tetradapt/mesh/mesh_checks.h"
+#include "tetradapt/mesh/finalize.h"
 
 #include <set>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/io/outline.h"
 
-#include "tetradapt/geometry/surface_checks.h"
+#include "tetradapt/geometry/checked_surface.h"
 #include "tetradapt/geometry/surface_io.h"
 #include "tetradapt/io/volume_reader.h"
 #include "tetradapt/mesh/blocks.h"

@@ -8,7 +8,7 @@
 #include "tetradapt/io/vtk_reader.h"
 #include "tetradapt/io/vtu_reader.h"
 #include "tetradapt/mesh/embedding.h"
-#include "tetradapt/mesh/mesh_checks.h"
+#include "tetradapt/mesh/finalize.h"
 
 #include <filesystem>
 

@@ -5,7 +5,7 @@
 #include "tetradapt/io/file_scanner.h"
 #include "tetradapt/io/vtk_grid.h"
 #include "tetradapt/io/vtu_file.h"
-#include "tetradapt/mesh/mesh_checks.h"
+#include "tetradapt/mesh/finalize.h"
 
 #include <algorithm>
 #include <cmath>

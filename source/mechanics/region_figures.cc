@@ -133,7 +133,7 @@ namespace tetradapt::mechanics
           form = materials.pressure_form(region);
       }
 
-      /** With the four points of the rule of degree 2, as report::cell_stress(). */
+      /** With the four points of the rule of degree 2, as report::mean_stresses(). */
       SymmetricTensor<2, 3>
       mean_thermal_strain(const unsigned int cell) const
       {

@@ -6,7 +6,7 @@
 #include "selection_borders.h"
 
 #include "tetradapt/core/exceptions.h"
-#include "tetradapt/geometry/surface_checks.h"
+#include "tetradapt/geometry/checked_surface.h"
 #include "tetradapt/geometry/surface_io.h"
 #include "tetradapt/mesh/face_selectors.h"
 #include "tetradapt/mesh/kept_places.h"

@@ -2,10 +2,10 @@
 #include "tetradapt/mesh/tetgen.h"
 
 #include "tetradapt/core/exceptions.h"
-#include "tetradapt/geometry/surface_checks.h"
+#include "tetradapt/geometry/checked_surface.h"
 #include "tetradapt/geometry/surface_intersections.h"
+#include "tetradapt/mesh/finalize.h"
 #include "tetradapt/mesh/kept_places.h"
-#include "tetradapt/mesh/mesh_checks.h"
 #include "tetradapt/mesh/tetgen_demand.h"
 #include "tetradapt/mesh/tetgen_frame.h"
 #include "tetradapt/mesh/tetgen_process.h"

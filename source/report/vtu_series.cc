@@ -2,7 +2,7 @@
 #include "tetradapt/report/vtu_series.h"
 
 #include "tetradapt/io/vtu_writer.h"
-#include "tetradapt/report/cell_stress.h"
+#include "tetradapt/report/mean_stresses.h"
 #include "tetradapt/report/record_columns.h"
 
 #include <algorithm>
@@ -102,7 +102,7 @@ namespace tetradapt::report
       writer.add_cell_data("error_indicator", 1, *event.indicators);
     if (with_stress)
       {
-        const CellStress stresses = cell_stress(event.displacement, event.materials);
+        const MeanStresses stresses = mean_stresses(event.displacement, event.materials);
         writer.add_cell_data("stress", 6, stresses.stress);
         writer.add_cell_data("von_mises", 1, stresses.von_mises);
         if (event.displacement.pressure)

@@ -8,7 +8,7 @@
 #include "tetradapt/estimate/interpolation.h"
 #include "tetradapt/estimate/residual.h"
 #include "tetradapt/mesh/bricks.h"
-#include "tetradapt/mesh/mesh_checks.h"
+#include "tetradapt/mesh/finalize.h"
 #include "tetradapt/mesh/selection.h"
 
 #include <deal.II/base/mpi.h>

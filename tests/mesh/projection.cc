@@ -6,7 +6,7 @@
 #include "tetradapt/io/volume_reader.h"
 #include "tetradapt/mesh/body_complex.h"
 #include "tetradapt/mesh/boundary_projection.h"
-#include "tetradapt/mesh/mesh_checks.h"
+#include "tetradapt/mesh/finalize.h"
 #include "tetradapt/mesh/mesh_totals.h"
 #include "tetradapt/mesh/red_refinement.h"
 #include "tetradapt/mesh/tetgen.h"

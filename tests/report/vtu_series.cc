@@ -8,8 +8,8 @@
 #include "tetradapt/io/vtu_file.h"
 #include "tetradapt/io/vtu_reader.h"
 #include "tetradapt/mesh/bricks.h"
-#include "tetradapt/mesh/mesh_checks.h"
-#include "tetradapt/report/cell_stress.h"
+#include "tetradapt/mesh/finalize.h"
+#include "tetradapt/report/mean_stresses.h"
 #include "tetradapt/report/mesh_summary.h"
 #include "tetradapt/report/record_columns.h"
 
@@ -124,7 +124,7 @@ test_run(const unsigned int degree, const bool full)
             << std::endl;
   if (full)
     {
-      const report::CellStress stress = report::cell_stress(u, materials);
+      const report::MeanStresses stress = report::mean_stresses(u, materials);
       std::cout << "  stress " << close(numbers(file, "CellData", "stress"), stress.stress) << ' '
                 << io::VtuFile::n_components(file.array("CellData", "stress")) << ", von Mises "
                 << close(numbers(file, "CellData", "von_mises"), stress.von_mises) << ", indicator "

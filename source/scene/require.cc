@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "checks.h"
+#include "require.h"
 
 #include "values.h"
 

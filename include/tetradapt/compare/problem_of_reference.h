@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#ifndef tetradapt_compare_cached_reference_checks_h
-#define tetradapt_compare_cached_reference_checks_h
+#ifndef tetradapt_compare_problem_of_reference_h
+#define tetradapt_compare_problem_of_reference_h
 
 #include "tetradapt/compare/reference_cache.h"
 

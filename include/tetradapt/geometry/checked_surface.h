@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#ifndef tetradapt_geometry_surface_checks_h
-#define tetradapt_geometry_surface_checks_h
+#ifndef tetradapt_geometry_checked_surface_h
+#define tetradapt_geometry_checked_surface_h
 
 #include "tetradapt/geometry/surface_mesh.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "tetradapt/compare/cached_reference_checks.h"
+#include "tetradapt/compare/problem_of_reference.h"
 
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/mesh/edges.h"

@@ -3,7 +3,7 @@
 // Good surfaces have their volume and area and end up outward; each kind of bad
 // surface is refused with a message that says where it is bad.
 
-#include "tetradapt/geometry/surface_checks.h"
+#include "tetradapt/geometry/checked_surface.h"
 #include "tetradapt/core/exceptions.h"
 
 #include "surfaces.h"

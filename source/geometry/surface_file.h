@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#ifndef tetradapt_source_geometry_surface_file_checks_h
-#define tetradapt_source_geometry_surface_file_checks_h
+#ifndef tetradapt_source_geometry_surface_file_h
+#define tetradapt_source_geometry_surface_file_h
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Mean stresses of cells against values calculated by hand.
 
-#include "tetradapt/report/cell_stress.h"
+#include "tetradapt/report/mean_stresses.h"
 
 #include <cmath>
 #include <iostream>
@@ -39,7 +39,7 @@ make_scene()
 }
 
 void
-print(const std::string &what, const report::CellStress &result)
+print(const std::string &what, const report::MeanStresses &result)
 {
   std::cout << what << std::endl;
   for (unsigned int cell = 0; cell < result.von_mises.size(); ++cell)
@@ -77,13 +77,13 @@ main()
     return Tensor<1, 3>(
       {0.1 * p[0] + 0.15 * p[1] - 0.3 * p[2], -0.05 * p[0] - 0.2 * p[1] + 0.2 * p[2], 0.3 * p[2]});
   };
-  print("linear, degree 1", report::cell_stress(interpolate(m, 1, linear), materials));
-  print("linear, degree 2", report::cell_stress(interpolate(m, 2, linear), materials));
+  print("linear, degree 1", report::mean_stresses(interpolate(m, 1, linear), materials));
+  print("linear, degree 2", report::mean_stresses(interpolate(m, 2, linear), materials));
 
   // u_x = x^2: strain xx = 2x with the mean 2 x_c, x_c = 1/4 and 0.525. Region 3:
   // xx 2.4 * 0.5, yy and zz 0.8 * 0.5; region 8: xx 30 * 1.05.
   const auto quadratic = [](const Point<3> &p) { return Tensor<1, 3>({p[0] * p[0], 0., 0.}); };
-  print("quadratic, degree 2", report::cell_stress(interpolate(m, 2, quadratic), materials));
+  print("quadratic, degree 2", report::mean_stresses(interpolate(m, 2, quadratic), materials));
 
   // Nothing moves while region 3 warms up by x^2, whose mean is 1/10 on the unit
   // tetrahedron: -(3 lambda + 2 mu) alpha / 10 = -0.04 in xx, yy, zz. Region 8 does
@@ -93,13 +93,13 @@ main()
   scene.loads[0].type  = scene::LoadType::temperature;
   scene.loads[0].value = {{"x^2", "0", "0"}};
   const mechanics::MaterialMap warm(scene, *m);
-  print("thermal", report::cell_stress(mesh::NodalField(m, 1), warm));
+  print("thermal", report::mean_stresses(mesh::NodalField(m, 1), warm));
 
   // Free expansion: u = alpha T x with T = 2 leaves region 3 without stress and
   // gives region 8 30 * 0.2 in xx, yy, zz.
   scene.loads[0].value = {{"2", "0", "0"}};
   const mechanics::MaterialMap even(scene, *m);
   print("free expansion",
-        report::cell_stress(
+        report::mean_stresses(
           interpolate(m, 2, [](const Point<3> &p) { return Tensor<1, 3>(0.2 * p); }), even));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#ifndef tetradapt_mesh_mesh_checks_h
-#define tetradapt_mesh_mesh_checks_h
+#ifndef tetradapt_mesh_finalize_h
+#define tetradapt_mesh_finalize_h
 
 #include "tetradapt/mesh/face_table.h"
 

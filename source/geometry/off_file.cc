@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/core/exceptions.h"
 
-#include "surface_file_checks.h"
+#include "surface_file.h"
 
 #include <cctype>
 #include <filesystem>

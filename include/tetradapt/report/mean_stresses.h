@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#ifndef tetradapt_report_cell_stress_h
-#define tetradapt_report_cell_stress_h
+#ifndef tetradapt_report_mean_stresses_h
+#define tetradapt_report_mean_stresses_h
 
 #include "tetradapt/mechanics/material_map.h"
 #include "tetradapt/mesh/nodal_field.h"
@@ -11,11 +11,11 @@
 
 namespace tetradapt::report
 {
-  /** Names of the components of CellStress::stress, in order. */
+  /** Names of the components of MeanStresses::stress, in order. */
   extern const std::array<const char *, 6> stress_component_names;
 
   /** Mean stresses of cells, pressure unit of the scene. */
-  struct CellStress
+  struct MeanStresses
   {
     /** Six numbers a cell: xx, yy, zz, xy, yz, xz (ParaView's order). */
     std::vector<double> stress;
@@ -33,8 +33,8 @@ namespace tetradapt::report
    * of degree 2. The thermal strain is averaged with that rule. Of a solution in mixed form it
    * is the mean of 2 mu (eps - eps_th) - p I.
    */
-  CellStress
-  cell_stress(const mesh::NodalField &u, const mechanics::MaterialMap &materials);
+  MeanStresses
+  mean_stresses(const mesh::NodalField &u, const mechanics::MaterialMap &materials);
 } // namespace tetradapt::report
 
 #endif

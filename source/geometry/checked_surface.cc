@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "tetradapt/geometry/surface_checks.h"
+#include "tetradapt/geometry/checked_surface.h"
 
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/geometry/surface_intersections.h"

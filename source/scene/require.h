@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#ifndef tetradapt_scene_checks_h
-#define tetradapt_scene_checks_h
+#ifndef tetradapt_scene_require_h
+#define tetradapt_scene_require_h
 
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/scene/mistakes.h"

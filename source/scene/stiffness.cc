@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "checks.h"
-#include "scene_checks.h"
+#include "consistency.h"
+#include "require.h"
 #include "values.h"
 
 #include <algorithm>

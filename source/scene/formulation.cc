@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "scene_checks.h"
+#include "consistency.h"
 
-#include "checks.h"
+#include "require.h"
 #include "values.h"
 
 #include "tetradapt/scene/words.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "surface_file_checks.h"
+#include "surface_file.h"
 
 #include "tetradapt/core/exceptions.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "tetradapt/report/cell_stress.h"
+#include "tetradapt/report/mean_stresses.h"
 
 #include <cmath>
 
@@ -77,12 +77,12 @@ namespace tetradapt::report
     }
   } // namespace
 
-  CellStress
-  cell_stress(const mesh::NodalField &u, const mechanics::MaterialMap &materials)
+  MeanStresses
+  mean_stresses(const mesh::NodalField &u, const mechanics::MaterialMap &materials)
   {
     const mesh::TetMesh &mesh = u.mesh();
 
-    CellStress result;
+    MeanStresses result;
     result.stress.resize(6 * std::size_t(mesh.n_cells()));
     result.von_mises.resize(mesh.n_cells());
     result.pressure.resize(mesh.n_cells());
