@@ -43,8 +43,9 @@ namespace tetradapt::io
         for (unsigned int d = 0; d < 3; ++d)
           offset_square += (m[d] - 0.5 * (a[d] + b[d])) * (m[d] - 0.5 * (a[d] + b[d]));
         if (!(offset_square <= 1e-12 * length_square))
-          fail("a second-order tetrahedron has a curved edge: its node at " + to_string(m)
-               + " is not in the middle between " + to_string(a) + " and " + to_string(b)
+          fail("a second-order tetrahedron has a curved edge: its node at " + mesh::to_string(m)
+               + " is not in the middle between " + mesh::to_string(a) + " and "
+               + mesh::to_string(b)
                + ". Only straight tetrahedra can be used: save the mesh in first order.");
       }
     mesh.cells.push_back({{nodes[0], nodes[1], nodes[2], nodes[3]}});
