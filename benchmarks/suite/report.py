@@ -4,8 +4,8 @@ import datetime
 import os
 import shutil
 
-PLOTS = {"error": ("error_cantilever.svg", "error_l_shape.svg", "drivers_cantilever.svg",
-                   "drivers_l_shape.svg"), "solve": ("solve.svg",),
+PLOTS = {"error": ("error_cantilever.svg", "error_l_shape.svg", "indicators_cantilever.svg",
+                   "indicators_l_shape.svg"), "solve": ("solve.svg",),
          "size": ("size.svg", "memory.svg"), "stages": ("stages.svg",)}
 TABLES = {"summary": ("summary",), "agreement": ("agreement",), "solve": ("solve",), "size": ("size",),
           "error": ("levels_cantilever", "levels_l_shape"), "ranks": ("ranks",),

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/adapt/cycle_estimates.h"
 
-#include "tetradapt/compare/stress_difference.h"
+#include "tetradapt/compare/root_of_squares.h"
+#include "tetradapt/estimate/equilibrated/equilibrated.h"
 #include "tetradapt/estimate/goal_functional.h"
-#include "tetradapt/estimate/load_oscillations.h"
 
 #include <algorithm>
 #include <chrono>

@@ -8,7 +8,8 @@
 #include "tetradapt/adapt/solution_record.h"
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/on_first_rank.h"
-#include "tetradapt/mesh/mesh_checks.h"
+#include "tetradapt/estimate/recovery/recovery.h"
+#include "tetradapt/mesh/finalize.h"
 
 #include <algorithm>
 #include <cmath>
@@ -155,9 +156,15 @@ namespace tetradapt::adapt
   {
     if (!plan.uses_reference())
       return;
-    const auto scope = timer.scope("reference");
-    reference        = std::make_unique<compare::Reference>(
-      compare::make_reference(scene, *materials, mesh, communicator, log, excluded));
+    const auto scope       = timer.scope("reference");
+    const auto cell_errors = [](const mesh::NodalField       &solution,
+                                const mechanics::MaterialMap &materials,
+                                MPI_Comm                      communicator,
+                                const scene::Scene           *scene) {
+      return estimate::recovery_estimate(solution, materials, communicator, scene).cell_energy;
+    };
+    reference = std::make_unique<compare::Reference>(
+      compare::make_reference(scene, *materials, mesh, communicator, log, cell_errors, excluded));
     sampling = std::make_shared<compare::ReferenceSampling>(reference->displacement,
                                                             *materials,
                                                             communicator,

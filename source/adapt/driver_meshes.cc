@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The part of the driver that makes one mesh from another.
 #include "tetradapt/adapt/driver.h"
-#include "tetradapt/compare/stress_difference.h"
+#include "tetradapt/compare/root_of_squares.h"
 #include "tetradapt/compare/transfer.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // The part of the driver that decides whether a cycle is worse than the one before.
 #include "tetradapt/adapt/driver.h"
 #include "tetradapt/adapt/load_record.h"
-#include "tetradapt/compare/stress_difference.h"
+#include "tetradapt/compare/root_of_squares.h"
 
 #include <sstream>
 

@@ -4,11 +4,11 @@
 #include "tetradapt/adapt/saved_sizes.h"
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/on_first_rank.h"
+#include "tetradapt/io/mesh_source.h"
 #include "tetradapt/mesh/body_complex.h"
 #include "tetradapt/mesh/boundary_projection.h"
 #include "tetradapt/mesh/face_table.h"
 #include "tetradapt/mesh/mesh_broadcast.h"
-#include "tetradapt/mesh/mesh_factory.h"
 #include "tetradapt/mesh/red_refinement.h"
 
 #include <algorithm>
@@ -70,7 +70,7 @@ namespace tetradapt::adapt
   mesh::TetMesh
   MeshMaker::initial_mesh(const unsigned int number, NewMesh &made)
   {
-    mesh::TetMesh mesh  = mesh::make_mesh(scene, number, log);
+    mesh::TetMesh mesh  = io::make_mesh(scene, number, log);
     const auto    parts = mesh::connected_components(mesh);
     n_parts             = 1 + *std::max_element(parts.begin(), parts.end());
     if (scene.mesh.size_field.empty())

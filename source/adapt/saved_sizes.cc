@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/adapt/saved_sizes.h"
 
-#include "tetradapt/mesh/mesh_checks.h"
-#include "tetradapt/mesh/vtu_file.h"
-#include "tetradapt/mesh/vtu_reader.h"
+#include "tetradapt/io/vtu_file.h"
+#include "tetradapt/io/vtu_reader.h"
+#include "tetradapt/mesh/finalize.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,9 +22,9 @@ namespace tetradapt::adapt
 
   SavedSizes::SavedSizes(const std::string &name)
   {
-    const mesh::VtuFile file(name);
-    auto                mesh  = std::make_shared<mesh::TetMesh>(mesh::read_vtu(name));
-    const auto          names = file.names("PointData");
+    const io::VtuFile file(name);
+    auto              mesh  = std::make_shared<mesh::TetMesh>(io::read_vtu(name));
+    const auto        names = file.names("PointData");
     if (std::find(names.begin(), names.end(), array_name) == names.end())
       file.fail({}, "it has no point array 'size'; give the size_field.vtu of a run.");
     const auto array = file.array("PointData", array_name);

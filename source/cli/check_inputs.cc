@@ -4,13 +4,14 @@
 #include "tetradapt/adapt/placement.h"
 #include "tetradapt/adapt/saved_sizes.h"
 #include "tetradapt/core/condition.h"
+#include "tetradapt/io/mesh_source.h"
+#include "tetradapt/io/outline.h"
+#include "tetradapt/io/volume_reader.h"
+#include "tetradapt/io/vtu_reader.h"
 #include "tetradapt/mechanics/material_map.h"
 #include "tetradapt/mesh/boundary_projection.h"
-#include "tetradapt/mesh/mesh_factory.h"
-#include "tetradapt/mesh/outline.h"
+#include "tetradapt/mesh/face_selectors.h"
 #include "tetradapt/mesh/selection.h"
-#include "tetradapt/mesh/volume_reader.h"
-#include "tetradapt/mesh/vtu_reader.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,7 +69,7 @@ namespace tetradapt::cli
       std::vector<mesh::Point<3>> points;
       for (const auto &face : outline.faces)
         {
-          const auto on_face = mesh::points_on(outline, face, n_parts);
+          const auto on_face = io::points_on(outline, face, n_parts);
           points.insert(points.end(), on_face.begin(), on_face.end());
         }
       for (const auto &[name, selector] : mesh::face_selectors(scene))
@@ -86,7 +87,7 @@ namespace tetradapt::cli
           });
     }
 
-    /** As mesh::make_mesh(), but an empty selection does not hide the others. */
+    /** As io::make_mesh(), but an empty selection does not hide the others. */
     void
     check_given_mesh(const scene::Scene &scene,
                      const unsigned int  number,
@@ -95,8 +96,7 @@ namespace tetradapt::cli
     {
       const core::Log silent;
       if (mistakes.attempt([&]() {
-            const auto body
-              = std::make_shared<mesh::TetMesh>(mesh::make_mesh(scene, number, silent));
+            const auto body = std::make_shared<mesh::TetMesh>(io::make_mesh(scene, number, silent));
             mistakes.attempt([&]() { adapt::check_placement(scene, body, log); });
           }))
         return;
@@ -106,7 +106,7 @@ namespace tetradapt::cli
         part.loads.clear();
         part.goals.clear();
         keep(part);
-        mistakes.attempt([&]() { mesh::make_mesh(part, number, silent); });
+        mistakes.attempt([&]() { io::make_mesh(part, number, silent); });
       };
       for (const auto &support : scene.supports)
         only([&](scene::Scene &part) { part.supports.push_back(support); });
@@ -124,14 +124,14 @@ namespace tetradapt::cli
     {
       const bool    given = has_given_meshes(scene.mesh);
       mesh::TetMesh outline;
-      if (!mistakes.attempt([&]() { outline = mesh::outline(scene.mesh, number); }))
+      if (!mistakes.attempt([&]() { outline = io::outline(scene.mesh, number); }))
         return;
       scene::Mistakes found;
       check_all_names(scene, outline, found);
       if (!given)
         {
           check_conditions(scene, outline, found, log);
-          mesh::check_kept_places(scene, number, found);
+          io::check_kept_places(scene, number, found);
         }
       if (given && found.empty())
         check_given_mesh(scene, number, found, log);
@@ -150,11 +150,11 @@ namespace tetradapt::cli
       using Reference        = scene::ReferenceParameters;
       const auto &parameters = scene.reference;
       if (parameters.type == Reference::Type::run)
-        mesh::read_displacement_vtu(parameters.file);
+        io::read_displacement_vtu(parameters.file);
       else if (parameters.type == Reference::Type::fine_mesh
                && parameters.route == Reference::MeshRoute::file)
         {
-          mesh::TetMesh mesh = mesh::read_volume_mesh(parameters.file);
+          mesh::TetMesh mesh = io::read_volume_mesh(parameters.file);
           mesh::select_faces(mesh, mesh::face_selectors(scene));
         }
     }

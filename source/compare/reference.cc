@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/compare/reference.h"
 
-#include "tetradapt/compare/recovery.h"
 #include "tetradapt/compare/reference_cache.h"
 #include "tetradapt/compare/reference_key.h"
 #include "tetradapt/compare/reference_mesh.h"
-#include "tetradapt/compare/stress_difference.h"
+#include "tetradapt/compare/root_of_squares.h"
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/on_first_rank.h"
+#include "tetradapt/io/vtu_reader.h"
 #include "tetradapt/mesh/mesh_broadcast.h"
-#include "tetradapt/mesh/vtu_reader.h"
 #include "tetradapt/solve/energies.h"
 #include "tetradapt/solve/hexahedral_solution.h"
 #include "tetradapt/solve/static_solution.h"
@@ -50,19 +49,19 @@ namespace tetradapt::compare
       return text.str();
     }
 
-    /** By recovery, without what is left out. */
+    /** Without what is left out. */
     double
-    own_error(const mesh::NodalField       &displacement,
+    own_error(const CellErrors             &cell_errors,
+              const mesh::NodalField       &displacement,
               const mechanics::MaterialMap &materials,
               MPI_Comm                      communicator,
               const scene::Scene           *scene,
               const ExcludedRegion         &excluded)
     {
-      auto estimate = recovery_estimate(displacement, materials, communicator, scene);
-      if (excluded.empty())
-        return estimate.global;
-      excluded.clear(displacement.mesh(), estimate.cell_energy);
-      return root_of_squares(estimate.cell_energy);
+      auto errors = cell_errors(displacement, materials, communicator, scene);
+      if (!excluded.empty())
+        excluded.clear(displacement.mesh(), errors);
+      return root_of_squares(errors);
     }
 
     Reference
@@ -71,6 +70,7 @@ namespace tetradapt::compare
                     const mesh::TetMesh          &initial_mesh,
                     MPI_Comm                      communicator,
                     const core::Log              &log,
+                    const CellErrors             &cell_errors,
                     const ExcludedRegion         &excluded)
     {
       const auto mesh = mesh::make_on_first_rank(communicator, [&] {
@@ -83,7 +83,7 @@ namespace tetradapt::compare
       reference.energy                  = solution.energy;
       log.progress("reference: estimating its error");
       reference.estimated_error
-        = own_error(*solution.displacement, materials, communicator, &scene, excluded);
+        = own_error(cell_errors, *solution.displacement, materials, communicator, &scene, excluded);
       const Route route = scene.reference.route;
       reference.description
         = describe(*solution.displacement,
@@ -265,6 +265,7 @@ namespace tetradapt::compare
                    const mesh::TetMesh          &initial_mesh,
                    MPI_Comm                      communicator,
                    const core::Log              &log,
+                   const CellErrors             &cell_errors,
                    const ExcludedRegion         &excluded)
     {
       const auto  start = Clock::now();
@@ -281,7 +282,8 @@ namespace tetradapt::compare
         }
       reference         = scene.reference.type == scene::ReferenceParameters::Type::hexahedra
                             ? solve_hexahedra(scene, materials, initial_mesh, communicator, log)
-                            : solve_reference(scene, materials, initial_mesh, communicator, log, excluded);
+                            : solve_reference(
+                      scene, materials, initial_mesh, communicator, log, cell_errors, excluded);
       reference.seconds = seconds_since(start);
       if (scene.reference.cache)
         core::on_first_rank(communicator, [&] { store(file, key, reference, log); });
@@ -293,6 +295,7 @@ namespace tetradapt::compare
                      const mechanics::MaterialMap &materials,
                      MPI_Comm                      communicator,
                      const core::Log              &log,
+                     const CellErrors             &cell_errors,
                      const ExcludedRegion         &excluded)
     {
       const std::string                &file = scene.reference.file;
@@ -301,7 +304,7 @@ namespace tetradapt::compare
       std::vector<dealii::Tensor<1, 3>> values;
       core::on_first_rank(communicator, [&] {
         log.progress("reference: reading " + file);
-        const auto run = mesh::read_displacement_vtu(file);
+        const auto run = io::read_displacement_vtu(file);
         mesh           = run.displacement->mesh();
         degree         = run.displacement->degree();
         values         = run.displacement->values;
@@ -311,9 +314,10 @@ namespace tetradapt::compare
       const auto field = share(std::move(mesh), degree, std::move(values), {}, communicator);
       Reference  reference;
       reference.displacement.tetrahedra = field;
-      reference.energy          = solve::compute_energies(*field, materials, communicator).energy;
-      reference.estimated_error = own_error(*field, materials, communicator, nullptr, excluded);
-      reference.description     = describe(*field, "read from " + file);
+      reference.energy = solve::compute_energies(*field, materials, communicator).energy;
+      reference.estimated_error
+        = own_error(cell_errors, *field, materials, communicator, nullptr, excluded);
+      reference.description = describe(*field, "read from " + file);
       return reference;
     }
 
@@ -344,6 +348,7 @@ namespace tetradapt::compare
                  std::shared_ptr<const mesh::TetMesh> initial_mesh,
                  MPI_Comm                             communicator,
                  const core::Log                     &log,
+                 const CellErrors                    &cell_errors,
                  const ExcludedRegion                &excluded)
   {
     const auto start = Clock::now();
@@ -351,8 +356,9 @@ namespace tetradapt::compare
       throw core::InputError("A reference is needed, but Reference/Type is none.");
     Reference reference
       = scene.reference.type == scene::ReferenceParameters::Type::run
-          ? reference_of_run(scene, materials, communicator, log, excluded)
-          : fine_reference(scene, materials, *initial_mesh, communicator, log, excluded);
+          ? reference_of_run(scene, materials, communicator, log, cell_errors, excluded)
+          : fine_reference(
+            scene, materials, *initial_mesh, communicator, log, cell_errors, excluded);
     reference.seconds = seconds_since(start);
     if (reference.displacement.tetrahedra != nullptr)
       compare_bodies(reference.displacement.tetrahedra->mesh(), *initial_mesh, log);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/compare/reference_cache.h"
 
-#include "tetradapt/compare/cached_reference_checks.h"
 #include "tetradapt/compare/fingerprint.h"
+#include "tetradapt/compare/problem_of_reference.h"
 #include "tetradapt/core/atomic_file.h"
 
 #include <cstdint>

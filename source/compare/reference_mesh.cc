@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/compare/reference_mesh.h"
 
+#include "tetradapt/io/volume_reader.h"
 #include "tetradapt/mesh/boundary_projection.h"
 #include "tetradapt/mesh/bricks.h"
+#include "tetradapt/mesh/face_selectors.h"
 #include "tetradapt/mesh/kept_places.h"
-#include "tetradapt/mesh/mesh_factory.h"
 #include "tetradapt/mesh/selection.h"
 #include "tetradapt/mesh/size_function.h"
-#include "tetradapt/mesh/volume_reader.h"
 
 #include <cmath>
 #include <sstream>
@@ -88,7 +88,7 @@ namespace tetradapt::compare
     mesh::TetMesh mesh
       = parameters.route == scene::ReferenceParameters::MeshRoute::bricks
           ? mesh::bricks(scene.mesh.lower_corner, scene.mesh.upper_corner, parameters.cells)
-          : mesh::read_volume_mesh(parameters.file, log);
+          : io::read_volume_mesh(parameters.file, log);
     mesh.kept = mesh::places_on_vertices(mesh, mesh::kept_places(scene));
     mesh::report_straddled(mesh::select_faces(mesh, mesh::face_selectors(scene)), log);
     compare_selections(initial_mesh, mesh, log);

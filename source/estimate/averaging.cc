@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "tetradapt/compare/averaged_stress.h"
-#include "tetradapt/compare/stress_difference.h"
+#include "tetradapt/compare/root_of_squares.h"
 #include "tetradapt/estimate/flux_projection.h"
+#include "tetradapt/estimate/recovery/averaged_stress.h"
+#include "tetradapt/estimate/stress_difference.h"
 
 namespace tetradapt::estimate
 {
@@ -22,11 +23,11 @@ namespace tetradapt::estimate
   {
     const mesh::NodalField       &u_h       = input.comparison.displacement();
     const mechanics::MaterialMap &materials = input.comparison.material_map();
-    const compare::CellStress     stress(u_h, materials);
-    const compare::GivenLoads     loads(input.scene, materials, u_h.mesh());
-    const compare::AveragedStress averages(u_h, stress, &loads);
+    const CellStress              stress(u_h, materials);
+    const GivenLoads              loads(input.scene, materials, u_h.mesh());
+    const AveragedStress          averages(u_h, stress, &loads);
     Estimate                      result;
-    result.indicators = compare::stress_difference(
+    result.indicators = stress_difference(
       u_h.mesh(),
       stress,
       [&](const unsigned int       cell,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "tetradapt/estimate/enriched_problem.h"
+#include "tetradapt/estimate/enriched/enriched_problem.h"
 #include "tetradapt/estimate/extrapolation.h"
 
 #include <algorithm>

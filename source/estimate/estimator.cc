@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/estimate/estimator.h"
 
-#include "tetradapt/estimate/equilibrated.h"
+#include "tetradapt/estimate/equilibrated/equilibrated.h"
 #include "tetradapt/estimate/extrapolation.h"
 #include "tetradapt/estimate/flux_projection.h"
 #include "tetradapt/estimate/goal_oriented.h"

@@ -6,7 +6,7 @@
 #include "tetradapt/estimate/adaptive_quadrature.h"
 #include "tetradapt/estimate/goal_points.h"
 #include "tetradapt/mesh/face_table.h"
-#include "tetradapt/mesh/mesh_checks.h"
+#include "tetradapt/mesh/finalize.h"
 
 #include "goal_assembly.h"
 

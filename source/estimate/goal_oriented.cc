@@ -2,7 +2,7 @@
 #include "tetradapt/estimate/goal_oriented.h"
 
 #include "tetradapt/core/exceptions.h"
-#include "tetradapt/estimate/enriched_problem.h"
+#include "tetradapt/estimate/enriched/enriched_problem.h"
 #include "tetradapt/estimate/goal_functional.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include "tetradapt/estimate/goal_points.h"
 
 #include "tetradapt/core/exceptions.h"
-#include "tetradapt/mesh/mesh_checks.h"
+#include "tetradapt/mesh/finalize.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/estimate/interpolation.h"
 
-#include "tetradapt/compare/recovery.h"
-#include "tetradapt/compare/stress_difference.h"
+#include "tetradapt/compare/root_of_squares.h"
 #include "tetradapt/estimate/hierarchical_surplus.h"
+#include "tetradapt/estimate/recovery/recovery.h"
+#include "tetradapt/estimate/stress_difference.h"
 #include "tetradapt/mesh/face_table.h"
 
 #include <algorithm>
@@ -13,18 +14,16 @@ namespace tetradapt::estimate
 {
   namespace
   {
-    using compare::stress_index;
-
     /** The derivatives of degree p + 1 of a displacement in a cell, constant there. */
     class HighestDerivatives
     {
     public:
       /** The mean over the patches of the vertices in @p use of what was recovered. */
-      HighestDerivatives(const compare::RecoveredStress &recovered,
-                         const compare::ElasticMatrices &matrices,
-                         const unsigned int              cell,
-                         const std::array<bool, 4>      &use,
-                         const unsigned int              degree)
+      HighestDerivatives(const RecoveredStress     &recovered,
+                         const ElasticMatrices     &matrices,
+                         const unsigned int         cell,
+                         const std::array<bool, 4> &use,
+                         const unsigned int         degree)
         : degree(degree)
       {
         const unsigned int n            = degree == 1 ? 3 : 6;
@@ -156,7 +155,7 @@ namespace tetradapt::estimate
     surplus_energy(const unsigned int                 degree,
                    const std::array<Tensor<1, 3>, 4> &directions,
                    const double                       volume,
-                   const compare::ElasticMatrices    &matrices,
+                   const ElasticMatrices             &matrices,
                    const Tensor<1, 3>                *coefficients)
     {
       const auto        &rule = compare::tet_quadrature(degree == 1 ? 2 : 4);
@@ -171,7 +170,7 @@ namespace tetradapt::estimate
             for (unsigned int c = 0; c < 3; ++c)
               gradient[c] += coefficients[i][c] * gradients[i];
           double strain[6], stress[6];
-          compare::engineering_strain(gradient, strain);
+          engineering_strain(gradient, strain);
           matrices.stress(strain, stress);
           for (unsigned int a = 0; a < 6; ++a)
             sum += rule.weights[q] * strain[a] * stress[a];
@@ -182,16 +181,16 @@ namespace tetradapt::estimate
     /** Energy norm of what a cell's stress lacks of the recovered one: all there is to know on
      * meshes of a few cells. */
     double
-    recovered_difference(const compare::RecoveredStress &recovered,
-                         const compare::CellStress      &stress,
-                         const mesh::TetMesh            &mesh,
-                         const unsigned int              cell)
+    recovered_difference(const RecoveredStress &recovered,
+                         const CellStress      &stress,
+                         const mesh::TetMesh   &mesh,
+                         const unsigned int     cell)
     {
       const auto better
         = [&](unsigned int of, const mesh::Barycentric &b, const Point<3> &point, double *s) {
             recovered.at(of, b, point, s);
           };
-      return compare::stress_difference_in(mesh, stress, better, compare::tet_quadrature(2), cell);
+      return stress_difference_in(mesh, stress, better, compare::tet_quadrature(2), cell);
     }
   } // namespace
 
@@ -210,13 +209,13 @@ namespace tetradapt::estimate
   Estimate
   Interpolation::estimate(const EstimateInput &input) const
   {
-    const mesh::NodalField        &u_h          = input.comparison.displacement();
-    const mesh::TetMesh           &mesh         = u_h.mesh();
-    const MPI_Comm                 communicator = input.comparison.mpi_communicator();
-    const unsigned int             degree       = u_h.degree();
-    const compare::CellStress      stress(u_h, input.comparison.material_map(), false);
-    const compare::RecoveredStress recovered(u_h, stress, nullptr, communicator);
-    std::vector<char>              on_boundary(mesh.n_points(), 0);
+    const mesh::NodalField &u_h          = input.comparison.displacement();
+    const mesh::TetMesh    &mesh         = u_h.mesh();
+    const MPI_Comm          communicator = input.comparison.mpi_communicator();
+    const unsigned int      degree       = u_h.degree();
+    const CellStress        stress(u_h, input.comparison.material_map(), false);
+    const RecoveredStress   recovered(u_h, stress, nullptr, communicator);
+    std::vector<char>       on_boundary(mesh.n_points(), 0);
     for (const auto &face : mesh.faces)
       for (const unsigned int v : face.vertices)
         on_boundary[v] = 1;
@@ -228,8 +227,8 @@ namespace tetradapt::estimate
         Point<3> x[4];
         for (unsigned int i = 0; i < 4; ++i)
           x[i] = mesh.points[mesh.cells[cell][i]];
-        const compare::ElasticMatrices &matrices = stress.materials()[cell];
-        const HighestDerivatives        derivatives(
+        const ElasticMatrices   &matrices = stress.materials()[cell];
+        const HighestDerivatives derivatives(
           recovered, matrices, cell, inner_vertices(mesh.cells[cell], on_boundary), degree);
         if (!derivatives.are_known())
           {

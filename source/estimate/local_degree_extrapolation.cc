@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "tetradapt/compare/cell_stress.h"
-#include "tetradapt/compare/stress_difference.h"
+#include "tetradapt/compare/root_of_squares.h"
 #include "tetradapt/core/exceptions.h"
-#include "tetradapt/estimate/enriched_problem.h"
+#include "tetradapt/estimate/cell_stress.h"
+#include "tetradapt/estimate/enriched/enriched_problem.h"
 #include "tetradapt/estimate/extrapolation.h"
+#include "tetradapt/estimate/stress_difference.h"
 #include "tetradapt/mesh/face_table.h"
 #include "tetradapt/solve/conjugate_gradients.h"
 
@@ -24,9 +25,9 @@ namespace tetradapt::estimate
     class DiagonalBlocks
     {
     public:
-      DiagonalBlocks(const EnrichedSpace          &space,
-                     const mesh::NodalField       &u_h,
-                     const compare::CellMaterials &materials)
+      DiagonalBlocks(const EnrichedSpace    &space,
+                     const mesh::NodalField &u_h,
+                     const CellMaterials    &materials)
         : values(2 * space.size(), 0.)
       {
         const mesh::TetMesh &mesh = u_h.mesh();
@@ -273,7 +274,7 @@ namespace tetradapt::estimate
                                   input.comparison.mpi_communicator());
     const EnrichedSpace          &space = problem.space();
 
-    DiagonalBlocks blocks(space, u_h, compare::CellMaterials(materials, u_h.mesh()));
+    DiagonalBlocks blocks(space, u_h, CellMaterials(materials, u_h.mesh()));
     blocks.invert();
 
     const Values supported  = problem.supported_solution();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "tetradapt/compare/recovery.h"
 #include "tetradapt/estimate/flux_projection.h"
+#include "tetradapt/estimate/recovery/recovery.h"
 
 namespace tetradapt::estimate
 {
@@ -20,10 +20,10 @@ namespace tetradapt::estimate
   Estimate
   PatchRecovery::estimate(const EstimateInput &input) const
   {
-    auto recovery = compare::recovery_estimate(input.comparison.displacement(),
-                                               input.comparison.material_map(),
-                                               input.comparison.mpi_communicator(),
-                                               &input.scene);
+    auto recovery = recovery_estimate(input.comparison.displacement(),
+                                      input.comparison.material_map(),
+                                      input.comparison.mpi_communicator(),
+                                      &input.scene);
     return {std::move(recovery.cell_energy), recovery.global};
   }
 } // namespace tetradapt::estimate

@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/estimate/residual.h"
 
-#include "tetradapt/compare/cell_stress.h"
 #include "tetradapt/compare/field_evaluator.h"
-#include "tetradapt/compare/given_loads.h"
-#include "tetradapt/compare/stress_difference.h"
+#include "tetradapt/compare/root_of_squares.h"
+#include "tetradapt/estimate/cell_stress.h"
+#include "tetradapt/estimate/given_loads.h"
+#include "tetradapt/estimate/stress_difference.h"
 #include "tetradapt/mesh/face_table.h"
 
 namespace tetradapt::estimate
 {
   namespace
   {
-    using compare::CellStress;
-    using compare::ElasticMatrices;
-    using compare::GivenLoads;
-    using compare::stress_index;
     using dealii::Point;
     using dealii::Tensor;
 

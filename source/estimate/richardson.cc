@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "tetradapt/compare/recovery.h"
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/estimate/effectivity.h"
 #include "tetradapt/estimate/extrapolation.h"
+#include "tetradapt/estimate/recovery/recovery.h"
 
 #include <cmath>
 #include <optional>
@@ -90,10 +90,10 @@ namespace tetradapt::estimate
         "loads or prescribed displacements deform the body; this scene has both. Choose another "
         "one in Adaptivity and Estimation, for example spr.");
     const mesh::NodalField &u_h      = input.comparison.displacement();
-    auto                    recovery = compare::recovery_estimate(u_h,
-                                               input.comparison.material_map(),
-                                               input.comparison.mpi_communicator(),
-                                               &input.scene);
+    auto                    recovery = recovery_estimate(u_h,
+                                      input.comparison.material_map(),
+                                      input.comparison.mpi_communicator(),
+                                      &input.scene);
     Estimate                result;
     result.indicators = std::move(recovery.cell_energy);
     const auto square = extrapolated_square(input.levels, drive, u_h.degree());

@@ -4,7 +4,7 @@
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/geometry/surface_topology.h"
 
-#include "surface_file_checks.h"
+#include "surface_file.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/IO/OBJ.h>

@@ -2,8 +2,8 @@
 #include "tetradapt/mechanics/point_conditions.h"
 
 #include "tetradapt/core/expression.h"
+#include "tetradapt/mesh/finalize.h"
 #include "tetradapt/mesh/kept_places.h"
-#include "tetradapt/mesh/mesh_checks.h"
 
 #include <algorithm>
 #include <stdexcept>

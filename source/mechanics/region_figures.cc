@@ -175,7 +175,7 @@ namespace tetradapt::mechanics
                * (0.5 * (xy * xy + yz * yz + zx * zx) + 0.75 * (a * a + b * b + c * c));
       }
 
-      /** With the four points of the rule of degree 2, as report::cell_stress(). */
+      /** With the four points of the rule of degree 2, as report::mean_stresses(). */
       SymmetricTensor<2, 3>
       mean_thermal_strain(const unsigned int cell) const
       {

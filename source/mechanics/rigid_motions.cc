@@ -3,7 +3,7 @@
 
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/mesh/face_table.h"
-#include "tetradapt/mesh/mesh_checks.h"
+#include "tetradapt/mesh/finalize.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "tetradapt/core/expression.h"
 #include "tetradapt/mechanics/point_conditions.h"
 #include "tetradapt/mechanics/rigid_motions.h"
-#include "tetradapt/mesh/mesh_checks.h"
+#include "tetradapt/mesh/finalize.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,10 +6,10 @@
 #include "selection_borders.h"
 
 #include "tetradapt/core/exceptions.h"
-#include "tetradapt/geometry/surface_checks.h"
+#include "tetradapt/geometry/checked_surface.h"
 #include "tetradapt/geometry/surface_io.h"
+#include "tetradapt/mesh/face_selectors.h"
 #include "tetradapt/mesh/kept_places.h"
-#include "tetradapt/mesh/mesh_factory.h"
 #include "tetradapt/mesh/selection_cuts.h"
 
 #include <algorithm>

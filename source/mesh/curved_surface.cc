@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "curved_surface.h"
 
-#include "tetradapt/geometry/surface_checks.h"
+#include "tetradapt/geometry/checked_surface.h"
 #include "tetradapt/geometry/surface_io.h"
 
 namespace tetradapt::mesh

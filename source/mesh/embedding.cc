@@ -4,7 +4,7 @@
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/geometry/triangle_conflicts.h"
 #include "tetradapt/mesh/face_table.h"
-#include "tetradapt/mesh/mesh_checks.h"
+#include "tetradapt/mesh/finalize.h"
 
 #include <algorithm>
 #include <sstream>

@@ -6,8 +6,8 @@
 #include "tetradapt/geometry/surface_intersections.h"
 #include "tetradapt/geometry/surface_topology.h"
 #include "tetradapt/mesh/boundary_projection.h"
+#include "tetradapt/mesh/finalize.h"
 #include "tetradapt/mesh/kept_places.h"
-#include "tetradapt/mesh/mesh_checks.h"
 #include "tetradapt/scene/mistakes.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include "face_test.h"
 
 #include "tetradapt/core/exceptions.h"
-#include "tetradapt/mesh/mesh_checks.h"
+#include "tetradapt/mesh/finalize.h"
 #include "tetradapt/scene/nearest_names.h"
 
 #include <algorithm>

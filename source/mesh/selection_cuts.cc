@@ -5,7 +5,7 @@
 
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/geometry/surface_cutting.h"
-#include "tetradapt/mesh/mesh_checks.h"
+#include "tetradapt/mesh/finalize.h"
 #include "tetradapt/mesh/selection.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 #include "tetradapt/mesh/size_function.h"
 
 #include "tetradapt/core/exceptions.h"
-#include "tetradapt/mesh/mesh_checks.h"
+#include "tetradapt/mesh/finalize.h"
 
 #include <algorithm>
 #include <chrono>

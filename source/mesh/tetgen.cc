@@ -2,10 +2,10 @@
 #include "tetradapt/mesh/tetgen.h"
 
 #include "tetradapt/core/exceptions.h"
-#include "tetradapt/geometry/surface_checks.h"
+#include "tetradapt/geometry/checked_surface.h"
 #include "tetradapt/geometry/surface_intersections.h"
+#include "tetradapt/mesh/finalize.h"
 #include "tetradapt/mesh/kept_places.h"
-#include "tetradapt/mesh/mesh_checks.h"
 #include "tetradapt/mesh/tetgen_demand.h"
 #include "tetradapt/mesh/tetgen_frame.h"
 #include "tetradapt/mesh/tetgen_process.h"
@@ -243,5 +243,16 @@ namespace tetradapt::mesh
         report->seconds         = seconds_since(start);
       }
     return refined;
+  }
+
+  void
+  warn_of_unmet_wishes(const TetgenReport &report, const core::Log &log)
+  {
+    if (report.cap_reached)
+      log.warning("TetGen stopped at TetGen/Steiner points, before the wanted sizes were reached.");
+    if (report.oversized_cells > 0)
+      log.warning(std::to_string(report.oversized_cells)
+                  + " tetrahedra are larger than asked for (look at TetGen/Keep boundary and "
+                    "Steiner points).");
   }
 } // namespace tetradapt::mesh

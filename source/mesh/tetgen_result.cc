@@ -2,7 +2,7 @@
 #include "tetradapt/mesh/tetgen_result.h"
 
 #include "tetradapt/core/exceptions.h"
-#include "tetradapt/mesh/mesh_checks.h"
+#include "tetradapt/mesh/finalize.h"
 
 #include <algorithm>
 #include <cmath>

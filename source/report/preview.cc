@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/report/preview.h"
 
+#include "tetradapt/io/vtu_writer.h"
 #include "tetradapt/mechanics/material_map.h"
 #include "tetradapt/mesh/face_table.h"
 #include "tetradapt/mesh/kept_places.h"
-#include "tetradapt/mesh/vtu_writer.h"
 #include "tetradapt/report/record_columns.h"
 #include "tetradapt/scene/words.h"
 
@@ -245,7 +245,7 @@ namespace tetradapt::report
 
     /** Adds what the tetrahedra behind the faces know. */
     void
-    add_body(mesh::VtuWriter              &writer,
+    add_body(io::VtuWriter                &writer,
              const scene::Scene           &scene,
              const mesh::TetMesh          &mesh,
              const mechanics::MaterialMap &materials)
@@ -289,7 +289,7 @@ namespace tetradapt::report
   void
   write_preview(const std::string &file, const scene::Scene &scene, const mesh::TetMesh &mesh)
   {
-    auto                writer = mesh::VtuWriter::of_boundary(mesh);
+    auto                writer = io::VtuWriter::of_boundary(mesh);
     std::vector<int>    patches, ids;
     std::vector<double> areas;
     for (const mesh::BoundaryFace &face : mesh.faces)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/report/size_field_file.h"
 
-#include "tetradapt/mesh/vtu_writer.h"
+#include "tetradapt/io/vtu_writer.h"
 
 namespace tetradapt::report
 {
@@ -14,7 +14,7 @@ namespace tetradapt::report
   {
     if (event.node_sizes == nullptr || event.record.acceptance == adapt::Acceptance::rejected)
       return;
-    mesh::VtuWriter writer(event.displacement.mesh());
+    io::VtuWriter writer(event.displacement.mesh());
     writer.add_point_data("size", 1, *event.node_sizes);
     writer.add_regions();
     writer.write(folder.prepare("size_field.vtu"));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/report/vtu_series.h"
 
-#include "tetradapt/mesh/vtu_writer.h"
-#include "tetradapt/report/cell_stress.h"
+#include "tetradapt/io/vtu_writer.h"
+#include "tetradapt/report/mean_stresses.h"
 #include "tetradapt/report/record_columns.h"
 
 #include <algorithm>
@@ -93,7 +93,7 @@ namespace tetradapt::report
   void
   VtuSeries::write_cycle(const adapt::CycleEvent &event, const std::string &path) const
   {
-    mesh::VtuWriter writer(event.displacement);
+    io::VtuWriter writer(event.displacement);
     if (event.nodal_ren != nullptr)
       writer.add_point_data("REN", 1, *event.nodal_ren);
     writer.add_regions();
@@ -102,7 +102,7 @@ namespace tetradapt::report
       writer.add_cell_data("error_indicator", 1, *event.indicators);
     if (with_stress)
       {
-        const CellStress stresses = cell_stress(event.displacement, event.materials);
+        const MeanStresses stresses = mean_stresses(event.displacement, event.materials);
         writer.add_cell_data("stress", 6, stresses.stress);
         writer.add_cell_data("von_mises", 1, stresses.von_mises);
         if (event.displacement.pressure)

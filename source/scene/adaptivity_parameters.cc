@@ -2,7 +2,7 @@
 #include "tetradapt/scene/study_parameters.h"
 
 #include "binder.h"
-#include "checks.h"
+#include "require.h"
 
 #include <filesystem>
 

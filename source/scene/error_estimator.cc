@@ -2,7 +2,7 @@
 #include "tetradapt/scene/error_estimator.h"
 
 #include "binder.h"
-#include "checks.h"
+#include "require.h"
 
 #include <algorithm>
 

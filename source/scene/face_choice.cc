@@ -2,7 +2,7 @@
 #include "face_choice.h"
 
 #include "binder.h"
-#include "checks.h"
+#include "require.h"
 
 #include "tetradapt/core/condition.h"
 

@@ -2,8 +2,8 @@
 #include "tetradapt/scene/goal_parameters.h"
 
 #include "binder.h"
-#include "checks.h"
 #include "face_choice.h"
+#include "require.h"
 
 #include <algorithm>
 

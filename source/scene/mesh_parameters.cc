@@ -2,7 +2,7 @@
 #include "tetradapt/scene/mesh_parameters.h"
 
 #include "binder.h"
-#include "checks.h"
+#include "require.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 #include "tetradapt/scene/model_parameters.h"
 
 #include "binder.h"
-#include "checks.h"
 #include "face_choice.h"
 #include "place_choice.h"
+#include "require.h"
 #include "special_loads.h"
 
 #include "tetradapt/core/surface_expression.h"

@@ -2,7 +2,7 @@
 #include "place_choice.h"
 
 #include "binder.h"
-#include "checks.h"
+#include "require.h"
 
 #include "tetradapt/scene/singular_places.h"
 #include "tetradapt/scene/words.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/scene/plan.h"
 
-#include "scene_checks.h"
+#include "consistency.h"
 #include "values.h"
 
 #include "tetradapt/scene/words.h"

@@ -4,9 +4,9 @@
 #include "tetradapt/scene/moved_supports.h"
 #include "tetradapt/scene/words.h"
 
-#include "checks.h"
+#include "consistency.h"
 #include "place_choice.h"
-#include "scene_checks.h"
+#include "require.h"
 #include "special_loads.h"
 #include "values.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/scene/scene_reader.h"
 
-#include "scene_checks.h"
+#include "consistency.h"
 #include "scene_sink.h"
 
 #include <filesystem>

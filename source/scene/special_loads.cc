@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "special_loads.h"
 
-#include "checks.h"
-#include "scene_checks.h"
+#include "consistency.h"
+#include "require.h"
 
 #include "tetradapt/core/surface_expression.h"
 

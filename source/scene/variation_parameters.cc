@@ -2,7 +2,7 @@
 #include "tetradapt/scene/variation_parameters.h"
 
 #include "binder.h"
-#include "checks.h"
+#include "require.h"
 
 namespace tetradapt::scene
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "scene_checks.h"
+#include "consistency.h"
 #include "special_loads.h"
 
 #include "tetradapt/scene/words.h"

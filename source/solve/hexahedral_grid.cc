@@ -3,7 +3,7 @@
 
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/mesh/blocks.h"
-#include "tetradapt/mesh/mesh_factory.h"
+#include "tetradapt/mesh/face_selectors.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // What decides about a cycle: Galerkin's potential energy, where it can tell meshes apart.
 
 #include "tetradapt/adapt/acceptance.h"
-#include "tetradapt/mesh/mesh_factory.h"
+#include "tetradapt/io/mesh_source.h"
 #include "tetradapt/mesh/red_refinement.h"
 #include "tetradapt/solve/static_solution.h"
 
@@ -43,7 +43,7 @@ namespace
   {
     const core::Log    log;
     const scene::Scene scene = bar(end_displacement);
-    auto               mesh = std::make_shared<const mesh::TetMesh>(mesh::make_mesh(scene, 0, log));
+    auto               mesh  = std::make_shared<const mesh::TetMesh>(io::make_mesh(scene, 0, log));
     const mechanics::MaterialMap materials(scene, *mesh);
     std::string                  changes;
     adapt::CycleEnergy           before;
@@ -77,10 +77,10 @@ main(int argc, char *argv[])
 
   const core::Log log;
   scene::Scene    curved = bar("0.1*y*z");
-  std::cout << adapt::why_energy_cannot_tell(curved, mesh::make_mesh(curved, 0, log)) << '\n';
+  std::cout << adapt::why_energy_cannot_tell(curved, io::make_mesh(curved, 0, log)) << '\n';
   scene::Scene nodal  = bar("0");
   nodal.loads[0].type = scene::LoadType::nodal_force;
-  std::cout << adapt::why_energy_cannot_tell(nodal, mesh::make_mesh(nodal, 0, log)) << '\n';
+  std::cout << adapt::why_energy_cannot_tell(nodal, io::make_mesh(nodal, 0, log)) << '\n';
 
   const auto worse = [](double change, double error, double swept, double of_loads = 0.) {
     return adapt::compare_energies({-2., 0.}, {-2. + change, error}, swept, of_loads).is_worse()

@@ -7,7 +7,7 @@
 #include "tetradapt/compare/reference.h"
 #include "tetradapt/compare/reference_key.h"
 #include "tetradapt/core/exceptions.h"
-#include "tetradapt/mesh/mesh_factory.h"
+#include "tetradapt/io/mesh_source.h"
 
 #include "test_meshes.h"
 
@@ -222,9 +222,10 @@ namespace
     if (first_rank)
       std::filesystem::remove_all(directory);
     MPI_Barrier(MPI_COMM_WORLD);
-    const auto mesh = std::make_shared<mesh::TetMesh>(mesh::make_mesh(scene, 0, core::Log()));
+    const auto mesh = std::make_shared<mesh::TetMesh>(io::make_mesh(scene, 0, core::Log()));
     const mechanics::MaterialMap materials(scene, *mesh);
-    const auto make   = [&] { return make_reference(scene, materials, mesh, MPI_COMM_WORLD, {}); };
+    const auto                   make
+      = [&] { return make_reference(scene, materials, mesh, MPI_COMM_WORLD, {}, {}); };
     const Reference a = make(), b = make();
     const auto     &u = *a.displacement.hexahedra, &v = *b.displacement.hexahedra;
     check("solved, then reused", !a.from_cache && b.from_cache);
@@ -246,7 +247,7 @@ namespace
     auto              other = scene;
     other.mesh.cells        = {{{6, 3, 3}}};
     check("another mesh of tetrahedra, same key",
-          key == reference_key(other, mesh::make_mesh(other, 0, core::Log())));
+          key == reference_key(other, io::make_mesh(other, 0, core::Log())));
     other                     = scene;
     other.reference.tolerance = 0.04;
     check("another tolerance, another key", key != reference_key(other, *mesh));

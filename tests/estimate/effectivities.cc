@@ -6,7 +6,7 @@
 #include "tetradapt/estimate/flux_projection.h"
 #include "tetradapt/estimate/interpolation.h"
 #include "tetradapt/estimate/residual.h"
-#include "tetradapt/mesh/mesh_factory.h"
+#include "tetradapt/io/mesh_source.h"
 #include "tetradapt/scene/scene_reader.h"
 
 #include <deal.II/base/mpi.h>
@@ -33,7 +33,7 @@ check(const std::string        &what,
   core::Log                      log;
   scene::Scene                   on_mesh = scene;
   on_mesh.mesh.cells                     = {{{n, n, n}}};
-  const auto mesh = std::make_shared<mesh::TetMesh>(mesh::make_mesh(on_mesh, 0, log));
+  const auto mesh = std::make_shared<mesh::TetMesh>(io::make_mesh(on_mesh, 0, log));
   const mechanics::MaterialMap materials(on_mesh, *mesh);
   const auto                   system = std::make_shared<const solve::StaticSystem>(
     on_mesh, materials, mesh, on_mesh.degree, MPI_COMM_WORLD, log);

@@ -3,8 +3,8 @@
 // The space of the next degree: its fields are continuous, complete, and its stiffness
 // is what quadrature gives.
 
-#include "tetradapt/estimate/enriched_space.h"
 #include "tetradapt/compare/tet_quadrature.h"
+#include "tetradapt/estimate/enriched/space.h"
 #include "tetradapt/mesh/face_table.h"
 
 #include "../solve/solving.h"

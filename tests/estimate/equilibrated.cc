@@ -5,10 +5,11 @@
 // sharp: on smooth and on singular cases, nearly incompressible, and with stiffness
 // that jumps by ten thousand.
 
+#include "equilibrated/bound.h"
+#include "equilibrated/stress.h"
+
 #include "tetradapt/compare/difference.h"
 #include "tetradapt/compare/tet_quadrature.h"
-#include "tetradapt/estimate/equilibrated_bound.h"
-#include "tetradapt/estimate/equilibrated_stress.h"
 
 #include "../solve/solving.h"
 

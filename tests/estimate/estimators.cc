@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // The estimators on fields for which their values are known by hand.
 
-#include "tetradapt/compare/stress_difference.h"
+#include "tetradapt/compare/root_of_squares.h"
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/estimate/extrapolation.h"
 #include "tetradapt/estimate/flux_projection.h"
 #include "tetradapt/estimate/interpolation.h"
 #include "tetradapt/estimate/residual.h"
 #include "tetradapt/mesh/bricks.h"
-#include "tetradapt/mesh/mesh_checks.h"
+#include "tetradapt/mesh/finalize.h"
 #include "tetradapt/mesh/selection.h"
 
 #include <deal.II/base/mpi.h>

@@ -3,8 +3,8 @@
 // its sharp edges.
 
 #include "tetradapt/geometry/flat_parts.h"
+#include "tetradapt/geometry/checked_surface.h"
 #include "tetradapt/geometry/nearest_surface.h"
-#include "tetradapt/geometry/surface_checks.h"
 
 #include <cmath>
 #include <iostream>

@@ -6,7 +6,7 @@
 
 #include "surfaces.h"
 
-#include "tetradapt/geometry/surface_checks.h"
+#include "tetradapt/geometry/checked_surface.h"
 
 #include <cmath>
 #include <iostream>

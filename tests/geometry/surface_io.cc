@@ -4,7 +4,7 @@
 
 #include "tetradapt/geometry/surface_io.h"
 #include "tetradapt/core/exceptions.h"
-#include "tetradapt/geometry/surface_checks.h"
+#include "tetradapt/geometry/checked_surface.h"
 
 #include "surfaces.h"
 

@@ -4,8 +4,8 @@
 
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/mesh/bricks.h"
-#include "tetradapt/mesh/mesh_checks.h"
-#include "tetradapt/mesh/mesh_factory.h"
+#include "tetradapt/mesh/face_selectors.h"
+#include "tetradapt/mesh/finalize.h"
 #include "tetradapt/mesh/selection.h"
 #include "tetradapt/scene/scene.h"
 

@@ -7,7 +7,7 @@
 
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/mesh/bricks.h"
-#include "tetradapt/mesh/mesh_checks.h"
+#include "tetradapt/mesh/finalize.h"
 
 #include <cmath>
 #include <iostream>

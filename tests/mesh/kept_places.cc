@@ -7,11 +7,11 @@
 
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/geometry/surface_io.h"
+#include "tetradapt/io/mesh_source.h"
 #include "tetradapt/mesh/blocks.h"
 #include "tetradapt/mesh/body_complex.h"
 #include "tetradapt/mesh/boundary_projection.h"
 #include "tetradapt/mesh/bricks.h"
-#include "tetradapt/mesh/mesh_factory.h"
 #include "tetradapt/mesh/red_refinement.h"
 #include "tetradapt/mesh/selection_cuts.h"
 #include "tetradapt/mesh/tetgen.h"
@@ -189,7 +189,7 @@ projected()
       places.push_back(point("Supports/" + std::to_string(i), *scene.supports[i].place.point));
     }
   const core::Log silent;
-  TetMesh         mesh = make_mesh(scene, 0, silent);
+  TetMesh         mesh = io::make_mesh(scene, 0, silent);
   check("first", mesh, places);
   const auto   projection = make_projection(scene);
   const Tetgen tetgen(quality_for_projection(scene.tetgen, true));
@@ -212,7 +212,7 @@ projected()
 
   scene.supports.resize(1);
   scene.supports[0].place.point = Point<3>(.5, .55, .6);
-  refused([&]() { make_mesh(scene, 0, silent); });
+  refused([&]() { io::make_mesh(scene, 0, silent); });
   std::remove(file.c_str());
 }
 

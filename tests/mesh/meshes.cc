@@ -4,7 +4,7 @@
 
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/mesh/bricks.h"
-#include "tetradapt/mesh/mesh_checks.h"
+#include "tetradapt/mesh/finalize.h"
 #include "tetradapt/mesh/mesh_totals.h"
 #include "tetradapt/mesh/quality.h"
 #include "tetradapt/mesh/red_refinement.h"

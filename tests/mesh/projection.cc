@@ -3,13 +3,13 @@
 // its volume approaches the true one with h^2, no tetrahedron degenerates; bodies are
 // meshed from scratch from the corners of their flat parts.
 
+#include "tetradapt/io/volume_reader.h"
 #include "tetradapt/mesh/body_complex.h"
 #include "tetradapt/mesh/boundary_projection.h"
-#include "tetradapt/mesh/mesh_checks.h"
+#include "tetradapt/mesh/finalize.h"
 #include "tetradapt/mesh/mesh_totals.h"
 #include "tetradapt/mesh/red_refinement.h"
 #include "tetradapt/mesh/tetgen.h"
-#include "tetradapt/mesh/volume_reader.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,7 +55,7 @@ namespace
   void
   test_sphere(const mesh::BoundaryProjection &projection)
   {
-    TetMesh mesh = mesh::read_volume_mesh(SOURCE_DIR "/../../meshes/sphere_octant.msh");
+    TetMesh mesh = io::read_volume_mesh(SOURCE_DIR "/../../meshes/sphere_octant.msh");
     projection.assign(mesh);
     std::cout << "patches:";
     for (const auto &patch : mesh.patches)
@@ -173,7 +173,7 @@ main()
   parameters.projection_functions = {"x^2+y^2+z^2-1", "z-7"};
   try
     {
-      TetMesh mesh = mesh::read_volume_mesh(SOURCE_DIR "/../../meshes/sphere_octant.msh");
+      TetMesh mesh = io::read_volume_mesh(SOURCE_DIR "/../../meshes/sphere_octant.msh");
       mesh::make_projection(scene)->assign(mesh);
     }
   catch (const std::exception &error)

@@ -5,11 +5,11 @@
 #include "tetradapt/mesh/selection_cuts.h"
 
 #include "tetradapt/geometry/surface_io.h"
+#include "tetradapt/io/mesh_source.h"
 #include "tetradapt/mesh/blocks.h"
 #include "tetradapt/mesh/body_complex.h"
 #include "tetradapt/mesh/boundary_projection.h"
 #include "tetradapt/mesh/edges.h"
-#include "tetradapt/mesh/mesh_factory.h"
 #include "tetradapt/mesh/red_refinement.h"
 #include "tetradapt/mesh/selection.h"
 #include "tetradapt/mesh/tetgen.h"
@@ -223,7 +223,7 @@ test_projection()
       scene.loads.push_back(load);
     }
   const auto projection = make_projection(scene);
-  TetMesh    mesh       = make_mesh(scene, 0, core::Log());
+  TetMesh    mesh       = io::make_mesh(scene, 0, core::Log());
   for (unsigned int round = 0; round < 3; ++round)
     {
       if (round > 0)

@@ -5,9 +5,9 @@
 
 #include "tetradapt/mesh/true_surface.h"
 #include "tetradapt/geometry/surface_io.h"
+#include "tetradapt/io/volume_reader.h"
 #include "tetradapt/mesh/boundary_projection.h"
 #include "tetradapt/mesh/red_refinement.h"
-#include "tetradapt/mesh/volume_reader.h"
 
 #include <cmath>
 #include <fstream>
@@ -88,7 +88,7 @@ namespace
     scene::Scene scene;
     scene.mesh = parameters;
     const mesh::BoundaryProjection projection(scene);
-    TetMesh mesh = mesh::read_volume_mesh(SOURCE_DIR "/../../meshes/ellipsoid_octant.msh");
+    TetMesh mesh = io::read_volume_mesh(SOURCE_DIR "/../../meshes/ellipsoid_octant.msh");
     projection.assign(mesh);
     projection.project(mesh);
     double before = 0.;

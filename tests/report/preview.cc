@@ -4,10 +4,10 @@
 
 #include "tetradapt/report/preview.h"
 
+#include "tetradapt/io/vtu_file.h"
 #include "tetradapt/mesh/bricks.h"
-#include "tetradapt/mesh/mesh_factory.h"
+#include "tetradapt/mesh/face_selectors.h"
 #include "tetradapt/mesh/selection.h"
-#include "tetradapt/mesh/vtu_file.h"
 
 #include <cmath>
 #include <iostream>
@@ -47,7 +47,7 @@ namespace
   /** The area of the triangles where the array @p name of @p file is @p value, by their
    * corners. */
   double
-  area_where(const mesh::VtuFile &file, const std::string &name, const int value)
+  area_where(const io::VtuFile &file, const std::string &name, const int value)
   {
     const auto points  = file.numbers(file.coordinates());
     const auto corners = file.integers(file.array("Cells", "connectivity"));
@@ -93,7 +93,7 @@ main()
 
   std::cout << report::preview_tables(scene, body);
   report::write_preview("preview.vtu", scene, body);
-  const mesh::VtuFile file("preview.vtu");
+  const io::VtuFile file("preview.vtu");
   std::cout << file.n_points() << " points of " << body.n_points() << ", " << file.n_cells()
             << " triangles\n";
   for (const std::string name :

@@ -5,11 +5,11 @@
 #include "tetradapt/report/vtu_series.h"
 #include "tetradapt/adapt/mesh_record.h"
 
+#include "tetradapt/io/vtu_file.h"
+#include "tetradapt/io/vtu_reader.h"
 #include "tetradapt/mesh/bricks.h"
-#include "tetradapt/mesh/mesh_checks.h"
-#include "tetradapt/mesh/vtu_file.h"
-#include "tetradapt/mesh/vtu_reader.h"
-#include "tetradapt/report/cell_stress.h"
+#include "tetradapt/mesh/finalize.h"
+#include "tetradapt/report/mean_stresses.h"
 #include "tetradapt/report/mesh_summary.h"
 #include "tetradapt/report/record_columns.h"
 
@@ -50,13 +50,13 @@ close(const std::vector<double> &read, const std::vector<double> &written)
 }
 
 std::vector<double>
-numbers(const mesh::VtuFile &file, const std::string &section, const std::string &name)
+numbers(const io::VtuFile &file, const std::string &section, const std::string &name)
 {
   return file.numbers(file.array(section, name));
 }
 
 void
-print_names(const mesh::VtuFile &file)
+print_names(const io::VtuFile &file)
 {
   for (const std::string section : {"PointData", "CellData", "FieldData"})
     {
@@ -100,11 +100,11 @@ test_run(const unsigned int degree, const bool full)
     series.cycle_done({record, u, materials, full ? &indicators : nullptr, full ? &ren : nullptr});
 
   std::cout << "degree " << degree << (full ? ", all data" : ", displacement only") << std::endl;
-  const std::string   path = folder + "/cycle_001.vtu";
-  const mesh::VtuFile file(path);
+  const std::string path = folder + "/cycle_001.vtu";
+  const io::VtuFile file(path);
   print_names(file);
 
-  const mesh::DisplacementFile           read   = mesh::read_displacement_vtu(path);
+  const io::DisplacementFile             read   = io::read_displacement_vtu(path);
   const mesh::TetMesh                   &back   = read.displacement->mesh();
   const std::vector<mesh::Tensor<1, 3>> &values = read.displacement->values;
   std::cout << "  degree " << read.displacement->degree() << ", bits equal: "
@@ -124,9 +124,9 @@ test_run(const unsigned int degree, const bool full)
             << std::endl;
   if (full)
     {
-      const report::CellStress stress = report::cell_stress(u, materials);
+      const report::MeanStresses stress = report::mean_stresses(u, materials);
       std::cout << "  stress " << close(numbers(file, "CellData", "stress"), stress.stress) << ' '
-                << mesh::VtuFile::n_components(file.array("CellData", "stress")) << ", von Mises "
+                << io::VtuFile::n_components(file.array("CellData", "stress")) << ", von Mises "
                 << close(numbers(file, "CellData", "von_mises"), stress.von_mises) << ", indicator "
                 << close(numbers(file, "CellData", "error_indicator"), indicators) << ", REN "
                 << close(numbers(file, "PointData", "REN"), ren) << std::endl;

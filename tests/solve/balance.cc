@@ -5,7 +5,7 @@
 
 #include "tetradapt/core/expression.h"
 #include "tetradapt/core/expression_tokens.h"
-#include "tetradapt/mesh/mesh_factory.h"
+#include "tetradapt/io/mesh_source.h"
 #include "tetradapt/scene/scene_reader.h"
 #include "tetradapt/solve/static_solution.h"
 
@@ -233,7 +233,7 @@ namespace
     std::shared_ptr<mesh::TetMesh> mesh;
     for (unsigned int attempt = 0; attempt < 4; ++attempt)
       {
-        mesh = std::make_shared<mesh::TetMesh>(mesh::make_mesh(scene, 0, core::Log()));
+        mesh = std::make_shared<mesh::TetMesh>(io::make_mesh(scene, 0, core::Log()));
         if (mesh->n_cells() <= most_cells)
           break;
         for (double &bound : scene.mesh.volume_bounds)

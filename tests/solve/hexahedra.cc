@@ -4,6 +4,7 @@
 // a known energy, and the same as on tetrahedra for all kinds of supports and loads; on
 // one and on two ranks.
 
+#include "tetradapt/io/mesh_source.h"
 #include "tetradapt/solve/hexahedral_multigrid.h"
 #include "tetradapt/solve/hexahedral_solution.h"
 
@@ -31,7 +32,7 @@ namespace
   std::shared_ptr<mesh::TetMesh>
   mesh_of(const scene::Scene &scene)
   {
-    return std::make_shared<mesh::TetMesh>(mesh::make_mesh(scene, 0, core::Log()));
+    return std::make_shared<mesh::TetMesh>(io::make_mesh(scene, 0, core::Log()));
   }
 
   solve::HexahedralSolution
@@ -284,7 +285,7 @@ namespace
       print_refusal(what, [&] {
         auto fine      = scene;
         fine.mesh.size = "0.2";
-        solve::make_hexahedral_grid(scene, mesh::make_mesh(fine, 0, log), log);
+        solve::make_hexahedral_grid(scene, io::make_mesh(fine, 0, log), log);
       });
     };
     scene.loads[0].selector.where = "z > 1-1e-9 && x^2 + y^2 < 0.5";

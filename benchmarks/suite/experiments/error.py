@@ -3,7 +3,7 @@
 
 The others solve on uniform meshes of growing fineness, ready-made. Tetradapt does the same, and
 refines to tolerances that its own estimate has to meet: every cycle, meshing and estimation is
-counted, and no reference is used unless the driver needs one.
+counted, and no reference is used unless the indicator needs one.
 """
 from suite import levels, plots
 from suite.bodies import BODIES
@@ -17,8 +17,8 @@ UNIFORM = {("cantilever", 1): ((4, 8, 12), (4, 8, 14, 20)),
 LARGEST = {"CalculiX SPOOLES": (70000, 120000), "CalculiX CG, Cholesky": (25000, 120000),
            "CalculiX CG, scaled": (25000, 80000), "GetFEM MUMPS": (25000, 80000),
            "FEniCSx Cholesky": (70000, 500000), "FEniCSx GAMG": (70000, 500000)}
-DRIVERS = ("spr", "residual", "averaging", "equilibrated", "interpolation", "degree extrapolation",
-           "local degree extrapolation", "richardson")
+INDICATORS = ("spr", "residual", "averaging", "equilibrated", "interpolation", "degree extrapolation",
+              "local degree extrapolation", "richardson")
 # By body and degree, the last one left out of quick sessions; smaller errors cost linear
 # tetrahedra too much.
 TOLERANCES = {("cantilever", 1): (0.4, 0.3, 0.2, 0.15), ("l_shape", 1): (0.2, 0.1, 0.06, 0.04),
@@ -29,13 +29,13 @@ TOLERANCES = {("cantilever", 1): (0.4, 0.3, 0.2, 0.15), ("l_shape", 1): (0.2, 0.
 def adaptive_jobs(session, body):
     tetradapt = session.tetradapt
     for degree in (1, 2):
-        for driver in DRIVERS:
-            main = driver in ("spr", "residual")
+        for indicator in INDICATORS:
+            main = indicator in ("spr", "residual")
             if not main and (degree == 1 or session.quick):
                 continue
             for tolerance in TOLERANCES[body.name, degree][:None if main and not session.quick else -1]:
-                settings = {"Adaptivity/Refinement indicator": driver, "Adaptivity/Tolerance": tolerance}
-                yield tetradapt.job(session.output, body, f"{driver} {tolerance}", degree, settings)
+                settings = {"Adaptivity/Refinement indicator": indicator, "Adaptivity/Tolerance": tolerance}
+                yield tetradapt.job(session.output, body, f"{indicator} {tolerance}", degree, settings)
     for tolerance in () if session.quick else (0.05, 0.02):
         settings = {"Adaptivity/Refinement indicator": "energy", "Adaptivity/Tolerance": tolerance,
                     "Reference/Type": "hexahedra", "Reference/Tolerance": tolerance / 4,
@@ -95,19 +95,19 @@ def write_levels(session, body, rows):
 
 
 def draw(session, body, rows):
-    """Two plots of the error over CPU seconds: all programs, and all drivers of Tetradapt.
+    """Two plots of the error over CPU seconds: all programs, and all indicators of Tetradapt.
 
     In the first the slower solvers of a program are left to the table.
     """
     title = {"cantilever": "Cantilever", "l_shape": "L-shaped solid"}[body.name]
     axes = "CPU seconds of the whole process, one thread", "relative error in the energy norm"
-    programs, drivers = {}, {}
+    programs, indicators = {}, {}
     for row in rows:
         kind = row["case"].rsplit(" ", 1)[0]
         point = float(row["cpu_seconds"]), float(row["error"])
         if row["program"] == "Tetradapt" and row["degree"] == 2:
-            drivers.setdefault(kind, []).append(point)
-        if kind in ("uniform", *DRIVERS[:2]) and "CG, " not in row["program"]:
+            indicators.setdefault(kind, []).append(point)
+        if kind in ("uniform", *INDICATORS[:2]) and "CG, " not in row["program"]:
             programs.setdefault(levels.curve(row), []).append(point)
     # Tetradapt first, refined before uniform, degree 2 before 1.
     programs = dict(sorted(programs.items(), key=lambda item: (
@@ -115,5 +115,5 @@ def draw(session, body, rows):
     plots.lines(session.path(f"error_{body.name}.svg"), programs,
                 f"{title}: true error against run time", *axes)
     if not session.quick:
-        plots.lines(session.path(f"drivers_{body.name}.svg"), drivers,
+        plots.lines(session.path(f"indicators_{body.name}.svg"), indicators,
                     f"{title}: what drives Tetradapt's refinement, degree 2", *axes)

@@ -9,11 +9,11 @@ STAGES = ("mesh", "solve", "estimate", "marking", "output", "other")
 def run(session):
     jobs = []
     for body in BODIES.values():
-        for driver in ("spr", "residual"):
+        for indicator in ("spr", "residual"):
             for tolerance in (0.01,) if session.quick else (0.01, 0.005):
-                settings = {"Adaptivity/Refinement indicator": driver, "Adaptivity/Tolerance": tolerance,
+                settings = {"Adaptivity/Refinement indicator": indicator, "Adaptivity/Tolerance": tolerance,
                             "Output/VTU": "yes"}
-                jobs.append(session.tetradapt.job(session.output, body, f"stages {driver} {tolerance}", 2,
+                jobs.append(session.tetradapt.job(session.output, body, f"stages {indicator} {tolerance}", 2,
                                                   settings))
     rows = []
     for case in session.measure(jobs):

@@ -3,7 +3,7 @@
 from suite import levels
 from suite.bodies import BODIES
 
-# The two drivers that a user is told to take; the best of all would be found only afterwards.
+# The two indicators that a user is told to take; the best of all would be found only afterwards.
 OURS = ("Tetradapt spr", "Tetradapt residual", "Tetradapt uniform")
 
 

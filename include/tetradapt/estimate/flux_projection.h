@@ -18,7 +18,7 @@ namespace tetradapt::estimate
   };
 
   /** Zienkiewicz-Zhu (IJNME 33, 1992): the stress against the one recovered by fits
-   * at superconvergent points; see compare/recovery.h. */
+   * at superconvergent points; see recovery/recovery.h. */
   class PatchRecovery : public Estimator
   {
   public:

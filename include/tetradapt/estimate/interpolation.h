@@ -9,7 +9,7 @@ namespace tetradapt::estimate
   /**
    * The energy norm of the interpolation error u - I_h u, cell by cell. Derivatives of degree
    * p + 1 of the displacement, constant in each cell, are recovered: those of the strain
-   * are those of the polynomials of compare::RecoveredStress, and u_i,kl = eps_il,k +
+   * are those of the polynomials of RecoveredStress, and u_i,kl = eps_il,k +
    * eps_ik,l - eps_kl,i. For a polynomial u of degree p + 1 the interpolation error is a sum of
    * HierarchicalSurplus functions, which is integrated exactly: no constant is needed.
    *

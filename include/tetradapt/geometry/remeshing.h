@@ -2,7 +2,7 @@
 #ifndef tetradapt_geometry_remeshing_h
 #define tetradapt_geometry_remeshing_h
 
-#include "tetradapt/geometry/surface_checks.h"
+#include "tetradapt/geometry/checked_surface.h"
 
 #include <string>
 

@@ -54,7 +54,7 @@ namespace tetradapt::mesh
    * A tetrahedral mesh as plain data: readers, TetGen, writers, locators and
    * estimators share it, and none of them needs a deal.II triangulation.
    *
-   * Invariants after finalize() (see mesh_checks.h): every cell has positive
+   * Invariants after finalize() (see finalize.h): every cell has positive
    * volume, i.e. (p1-p0)x(p2-p0).(p3-p0) > 0; faces holds each boundary triangle
    * exactly once, its vertices counter-clockwise seen from outside; every face
    * and cell refers to an existing patch or region.

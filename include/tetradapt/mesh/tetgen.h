@@ -2,6 +2,7 @@
 #ifndef tetradapt_mesh_tetgen_h
 #define tetradapt_mesh_tetgen_h
 
+#include "tetradapt/core/log.h"
 #include "tetradapt/mesh/plc.h"
 #include "tetradapt/mesh/sizing.h"
 #include "tetradapt/scene/mesh_parameters.h"
@@ -79,6 +80,10 @@ namespace tetradapt::mesh
   private:
     scene::TetgenParameters parameters;
   };
+
+  /** Warns of what TetGen could not do. */
+  void
+  warn_of_unmet_wishes(const TetgenReport &report, const core::Log &log);
 } // namespace tetradapt::mesh
 
 #endif

@@ -28,7 +28,7 @@ namespace tetradapt::report
    * file ("boundary_names", ...), a line "id name" each.
    *
    * @param mesh as in preview_tables().
-   * @throws as mesh::VtuWriter::write() and preview_tables() do.
+   * @throws as io::VtuWriter::write() and preview_tables() do.
    */
   void
   write_preview(const std::string &file, const scene::Scene &scene, const mesh::TetMesh &mesh);

@@ -16,7 +16,7 @@ namespace tetradapt::report
    *
    * At nodes: displacement (exactly; read_displacement_vtu() gets it back), REN.
    * In cells: region, surface_patch (see surface_patches()), stress and von_mises (see
-   * cell_stress()), error_indicator. For the file: regions and the boundary, the
+   * mean_stresses()), error_indicator. For the file: regions and the boundary, the
    * scene's name, and the figures of the cycle under the names of
    * record_columns(). Except for the displacement, numbers have single precision.
    * What a scene does not have is left out.

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#ifndef tetradapt_estimate_enriched_enriched_problem_h
+#define tetradapt_estimate_enriched_enriched_problem_h
+
+#include "tetradapt/estimate/enriched/space.h"
+#include "tetradapt/scene/scene.h"
+#include "tetradapt/solve/static_solution.h"
+
+namespace tetradapt::estimate
+{
+  /**
+   * A scene's static problem in the space of the next degree: what its residual is for a
+   * solution, and the correction that makes it zero. Dual problems differ in their
+   * forces only.
+   *
+   * Corrections are solved for by conjugate gradients, preconditioned additively by what
+   * solved the solution (its degree) and by the 3x3 diagonal blocks of the surplus, which
+   * in a hierarchical basis is enough for a rate that does not depend on the mesh
+   * (Bank and Smith, SIAM J. Numer. Anal. 30, 1993).
+   */
+  class EnrichedProblem
+  {
+  public:
+    using Values = EnrichedSpace::Values;
+
+    /** Keeps a reference to @p solution, which must have its system.
+     * @throws core::InputError if it has none. Collective. */
+    EnrichedProblem(const scene::Scene           &scene,
+                    const mechanics::MaterialMap &materials,
+                    const solve::StaticSolution  &solution,
+                    MPI_Comm                      communicator);
+
+    const EnrichedSpace &
+    space() const
+    {
+      return enriched_space;
+    }
+
+    /** The solution with what the supports prescribe in the surplus: what a correction,
+     * zero at the supports, is added to. */
+    Values
+    supported_solution() const;
+
+    /** F(phi_i) - a(u, phi_i) where nothing is supported, else zero. Collective. */
+    Values
+    residual(const Values &u) const;
+
+    /** @p forces with zeros where a component is supported. */
+    void
+    clear_supported(Values &forces) const;
+
+    struct Correction
+    {
+      Values       values;            ///< e, zero at supports
+      double       norm         = 0.; ///< energy norm of e
+      double       error        = 0.; ///< estimated energy norm of what is missing in e
+      unsigned int n_iterations = 0;
+    };
+
+    /** Solves a(e, phi_i) = forces_i for all functions, until the error of e is
+     * estimated to be @p tolerance times its norm. Collective.
+     * @throws core::NumericalError if it does not converge. */
+    Correction
+    solve(const Values &forces, double tolerance) const;
+
+  private:
+    struct FreeStiffness;
+    struct AdditivePreconditioner;
+    void
+    precondition(const Values &residual, Values &result) const;
+
+    const solve::StaticSolution      &solution;
+    EnrichedSpace                     enriched_space;
+    mechanics::PrescribedDisplacement prescribed;     ///< of the surplus
+    Values                            loads;          ///< F(phi_i)
+    mutable std::vector<double>       block_inverses; ///< made when they are first asked for
+    mutable std::vector<Tensor<1, 3>> nodal_residual, nodal_result; ///< work space
+  };
+} // namespace tetradapt::estimate
+
+#endif
