@@ -2,19 +2,16 @@
 #include "tetradapt/cli/outcome.h"
 
 #include "tetradapt/core/exceptions.h"
+#include "tetradapt/core/failure.h"
 #include "tetradapt/core/printable.h"
-
-#include <deal.II/base/exceptions.h>
 
 #include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
-#include <filesystem>
 #include <iostream>
-#include <new>
-#include <sstream>
 #include <thread>
+#include <utility>
 
 namespace tetradapt::cli
 {
@@ -24,70 +21,14 @@ namespace tetradapt::cli
     std::cerr << "Error: " + core::printable(message) + "\n" << std::flush;
   }
 
-  namespace
-  {
-    /** The sentence of a deal.II exception, without its frame and stack. */
-    std::string
-    text_of(const dealii::ExceptionBase &error)
-    {
-      std::ostringstream info;
-      error.print_info(info);
-      std::istringstream words(info.str());
-      std::string        text, word;
-      while (words >> word)
-        text += (text.empty() ? "" : " ") + word;
-      return std::string(error.get_exc_name()) + (text.empty() ? "" : ": " + text);
-    }
-  } // namespace
-
   Outcome
   attempt(const std::function<void()> &action)
   {
-    const int failure = Outcome::numerical_failure;
-    try
-      {
-        action();
-        return {};
-      }
-    catch (const core::InputError &error)
-      {
-        return {Outcome::bad_input, error.what()};
-      }
-    catch (const core::NumericalError &error)
-      {
-        return {failure, error.what()};
-      }
-    catch (const std::filesystem::filesystem_error &error)
-      {
-        // Names that are too long, links in a circle, folders that may not be read.
-        const bool is_trouble = error.code() == std::errc::no_space_on_device
-                                || error.code() == std::errc::io_error
-                                || error.code() == std::errc::too_many_files_open;
-        return {is_trouble ? failure : Outcome::bad_input,
-                "'" + error.path1().string() + "': " + error.code().message() + "."};
-      }
-    catch (const std::bad_alloc &)
-      {
-        return {failure,
-                "there is not enough memory. Use a smaller mesh: see Mesh, Reference and "
-                "Adaptivity/Maximum tetrahedra."};
-      }
-    catch (const dealii::ExceptionBase &error)
-      {
-        return {failure, "unexpected failure in deal.II: " + text_of(error)};
-      }
-    catch (const std::exception &error)
-      {
-        return {failure, std::string("unexpected failure: ") + error.what()};
-      }
-    catch (const int number) // as Trilinos throws them
-      {
-        return {failure, "unexpected failure, number " + std::to_string(number)};
-      }
-    catch (...)
-      {
-        return {failure, "unexpected failure of an unknown kind"};
-      }
+    core::Failure failure = core::attempt(action);
+    return {failure.kind == core::Failure::none    ? Outcome::done
+            : failure.kind == core::Failure::input ? Outcome::bad_input
+                                                   : Outcome::numerical_failure,
+            std::move(failure.message)};
   }
 
   void

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/compare/parallel.h"
 
-#include "tetradapt/core/exceptions.h"
-
 #include <algorithm>
 #include <cstdint>
 
@@ -21,13 +19,6 @@ namespace tetradapt::compare
       MPI_Finalized(&finalized);
       return initialized != 0 && finalized == 0;
     }
-
-    enum Failure : int
-    {
-      none      = 0,
-      numerical = 1,
-      input     = 2
-    };
   } // namespace
 
   unsigned int
@@ -121,42 +112,5 @@ namespace tetradapt::compare
                    item,
                    communicator);
     MPI_Type_free(&item);
-  }
-
-  void
-  together(MPI_Comm communicator, const std::function<void()> &work)
-  {
-    const int ranks = static_cast<int>(n_ranks(communicator));
-    if (ranks == 1)
-      return work();
-
-    int         failure = none;
-    std::string message;
-    try
-      {
-        work();
-      }
-    catch (const core::InputError &error)
-      {
-        failure = input;
-        message = error.what();
-      }
-    catch (const std::exception &error)
-      {
-        failure = numerical;
-        message = error.what();
-      }
-    int first = failure == none ? ranks : static_cast<int>(this_rank(communicator));
-    MPI_Allreduce(MPI_IN_PLACE, &first, 1, MPI_INT, MPI_MIN, communicator);
-    if (first == ranks)
-      return;
-    MPI_Bcast(&failure, 1, MPI_INT, first, communicator);
-    int length = static_cast<int>(message.size());
-    MPI_Bcast(&length, 1, MPI_INT, first, communicator);
-    message.resize(length);
-    MPI_Bcast(message.data(), length, MPI_CHAR, first, communicator);
-    if (failure == input)
-      throw core::InputError(message);
-    throw core::NumericalError(message);
   }
 } // namespace tetradapt::compare

@@ -3,6 +3,7 @@
 
 #include "tetradapt/compare/parallel.h"
 #include "tetradapt/compare/tet_quadrature.h"
+#include "tetradapt/core/failure.h"
 #include "tetradapt/mesh/simplex_parts.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -256,7 +257,7 @@ namespace tetradapt::estimate
     const AdaptiveQuadrature<n_corners> quadrature(mesh, densities);
     std::vector<double>                 tolerances(densities.n, 0.);
     std::vector<unsigned int>           needed; // where there is anything
-    compare::together(communicator, [&] {
+    core::together(communicator, [&] {
       for (unsigned int k = 0; k < n_parts; ++k)
         {
           const auto p = part(k);
@@ -268,7 +269,7 @@ namespace tetradapt::estimate
     compare::sum_over_ranks(tolerances, communicator);
     for (double &tolerance : tolerances)
       tolerance *= accuracy;
-    compare::together(communicator, [&] {
+    core::together(communicator, [&] {
       for (const unsigned int k : needed)
         {
           const auto p = part(k);

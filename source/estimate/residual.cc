@@ -3,6 +3,7 @@
 
 #include "tetradapt/compare/field_evaluator.h"
 #include "tetradapt/compare/root_of_squares.h"
+#include "tetradapt/core/failure.h"
 #include "tetradapt/estimate/cell_stress.h"
 #include "tetradapt/estimate/given_loads.h"
 #include "tetradapt/estimate/stress_difference.h"
@@ -350,7 +351,7 @@ namespace tetradapt::estimate
     const CellStress              stress(u_h, materials);
     const GivenLoads              loads(input.scene, materials, mesh);
     ResidualTerms                 terms(u_h, stress, loads);
-    compare::together(communicator, [&] {
+    core::together(communicator, [&] {
       const compare::Slice slice   = compare::own_slice(mesh.n_cells(), communicator);
       const unsigned int   n_slots = 4 * mesh.n_cells();
       if (loads.has_body_force() || u_h.degree() == 2 || stress.has_thermal_strain())

@@ -4,7 +4,6 @@
 
 #include <mpi.h>
 
-#include <functional>
 #include <vector>
 
 namespace tetradapt::compare
@@ -42,15 +41,6 @@ namespace tetradapt::compare
                 unsigned int         n,
                 unsigned int         size,
                 MPI_Comm             communicator);
-
-  /**
-   * Runs @p work on every rank and lets an exception that it throws on any of
-   * them be thrown on all: an InputError, a NumericalError or (as NumericalError)
-   * any other std::exception, with the message of the lowest such rank. Without
-   * this, the other ranks would wait for the one that failed. Collective.
-   */
-  void
-  together(MPI_Comm communicator, const std::function<void()> &work);
 } // namespace tetradapt::compare
 
 #endif

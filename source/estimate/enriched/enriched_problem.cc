@@ -4,6 +4,7 @@
 #include "tetradapt/compare/parallel.h"
 #include "tetradapt/compare/tet_quadrature.h"
 #include "tetradapt/core/exceptions.h"
+#include "tetradapt/core/failure.h"
 #include "tetradapt/estimate/given_loads.h"
 #include "tetradapt/solve/conjugate_gradients.h"
 
@@ -158,7 +159,7 @@ namespace tetradapt::estimate
   {
     Values             extra(enriched_space.size());
     const SurplusLoads surplus_loads(scene, materials, enriched_space);
-    compare::together(communicator, [&] {
+    core::together(communicator, [&] {
       surplus_loads.add_faces(extra);
       surplus_loads.add_cells(extra);
     });

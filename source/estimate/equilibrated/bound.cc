@@ -5,6 +5,7 @@
 #include "stress.h"
 
 #include "tetradapt/compare/parallel.h"
+#include "tetradapt/core/failure.h"
 
 #include <deal.II/base/numbers.h>
 
@@ -61,7 +62,7 @@ namespace tetradapt::estimate
     result.cell_energy.assign(n_cells, 0.);
     std::vector<double> loads(1, 0.);
     double              supports = 0.;
-    compare::together(communicator, [&] {
+    core::together(communicator, [&] {
       const compare::Slice own   = compare::own_slice(n_cells, communicator);
       const auto           found = stress.energies(own.begin, own.end);
       for (unsigned int i = 0; i < found.size(); ++i)

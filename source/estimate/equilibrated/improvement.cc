@@ -2,6 +2,7 @@
 #include "improvement.h"
 
 #include "tetradapt/compare/parallel.h"
+#include "tetradapt/core/failure.h"
 #include "tetradapt/mesh/space_curve.h"
 
 #include <deal.II/base/numbers.h>
@@ -66,7 +67,7 @@ namespace tetradapt::estimate
         // First each rank its own cells.
         const auto         ends = slice_ends(mesh.n_cells(), communicator);
         const unsigned int rank = compare::this_rank(communicator);
-        compare::together(communicator, [&] {
+        core::together(communicator, [&] {
           for (unsigned int r = 0; r + 1 < ends.size(); ++r)
             {
               std::vector<unsigned int> cells;

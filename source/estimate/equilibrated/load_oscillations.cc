@@ -5,6 +5,7 @@
 #include "oscillation.h"
 
 #include "tetradapt/compare/parallel.h"
+#include "tetradapt/core/failure.h"
 #include "tetradapt/core/surface_expression.h"
 
 #include <deal.II/base/numbers.h>
@@ -39,7 +40,7 @@ namespace tetradapt::estimate
       return result;
     const mesh::TetMesh &mesh = u_h.mesh();
     result.assign(mesh.n_cells(), 0.);
-    compare::together(communicator, [&] {
+    core::together(communicator, [&] {
       const CellStates            states(u_h, materials);
       const CellFaces             faces(mesh);
       const std::vector<FaceLoad> loads = face_loads(scene, mesh);

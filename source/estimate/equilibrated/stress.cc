@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "stress.h"
 
+#include "tetradapt/core/failure.h"
+
 #include "batch.h"
 #include "improvement.h"
 #include "tractions.h"
@@ -24,7 +26,7 @@ namespace tetradapt::estimate
     std::unique_ptr<CellStates> other_states;
     if (&galerkin != &u_h)
       other_states = std::make_unique<CellStates>(galerkin, materials);
-    compare::together(communicator, [&] {
+    core::together(communicator, [&] {
       FaceTractions tractions(galerkin,
                               other_states == nullptr ? states : *other_states,
                               faces,
@@ -42,7 +44,7 @@ namespace tetradapt::estimate
   EquilibratedStress::is_within(const double distance, MPI_Comm communicator)
   {
     std::vector<double> sum(1, 0.);
-    compare::together(communicator, [&] {
+    core::together(communicator, [&] {
       const auto own = compare::own_slice(mesh.n_cells(), communicator);
       for (const double energy : energies(own.begin, own.end))
         sum[0] += energy;

@@ -5,6 +5,7 @@
 #include "patch_solver.h"
 
 #include "tetradapt/compare/root_of_squares.h"
+#include "tetradapt/core/failure.h"
 #include "tetradapt/estimate/stress_difference.h"
 #include "tetradapt/mesh/space_curve.h"
 
@@ -142,7 +143,7 @@ namespace tetradapt::estimate
                                    MPI_Comm                communicator)
     : mesh(u_h.mesh()), linear(u_h.degree() == 1), patches(u_h.mesh())
   {
-    compare::together(communicator, [&] {
+    core::together(communicator, [&] {
       std::unique_ptr<const StressConditions> conditions;
       if (loads != nullptr)
         conditions = std::make_unique<const StressConditions>(u_h, stress, patches, *loads);
@@ -181,7 +182,7 @@ namespace tetradapt::estimate
     else
       {
         result.cell_energy.assign(n_cells, 0.);
-        compare::together(communicator, [&] {
+        core::together(communicator, [&] {
           const RecoveryDifference difference(u_h.mesh(), stress, recovered, rule);
           const compare::Slice     slice = compare::own_slice(n_cells, communicator);
           for (unsigned int cell = slice.begin; cell < slice.end; ++cell)
