@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-// What most files of the rooms without a triangulation include. It costs 4 s once
+// What most files of the rooms without vectors include. It costs 4 s once
 // and halves the 3.2 s that such a file takes. A file still includes what it uses:
 // it must compile without this header (TETRADAPT_PCH=OFF).
 #ifndef tetradapt_precompiled_light_h

@@ -28,6 +28,7 @@
 #include "tetradapt/solve/static_system.h"
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/lac/affine_constraints.h>
 
 #include <chrono>
 #include <cmath>

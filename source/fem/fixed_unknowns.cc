@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/fem/fixed_unknowns.h"
 
-#include <deal.II/base/config.h>
+#include <deal.II/lac/affine_constraints.h>
 
 #include <algorithm>
 

@@ -7,6 +7,8 @@
 #include "tetradapt/mechanics/rigid_motions.h"
 #include "tetradapt/mesh/finalize.h"
 
+#include <deal.II/lac/affine_constraints.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>

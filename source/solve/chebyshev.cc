@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/solve/chebyshev.h"
 
-#include <algorithm>
+#include "tetradapt/solve/conjugate_gradients.h"
+
+#include <deal.II/lac/tridiagonal_matrix.h>
+
 #include <cmath>
 #include <cstdint>
 
@@ -19,32 +22,66 @@ namespace tetradapt::solve
       return static_cast<std::int64_t>(i ^ (i >> 31)) * 0x1p-63;
     }
 
-    /** Largest eigenvalue of a symmetric tridiagonal matrix, by bisection. */
-    double
-    largest_of_tridiagonal(const std::vector<double> &diagonal,
-                           const std::vector<double> &off_diagonal)
+    /** Ends conjugate gradients after some steps, and collects the tridiagonal matrix of Lanczos
+     * that their coefficients make (Golub and Van Loan, Matrix Computations, section 10.2). */
+    class LanczosControl : public GainControl
     {
-      const std::size_t n     = diagonal.size();
-      double            lower = diagonal[0], upper = diagonal[0];
-      for (std::size_t i = 0; i < n; ++i)
-        upper = std::max(upper,
-                         diagonal[i] + (i > 0 ? std::abs(off_diagonal[i - 1]) : 0.)
-                           + (i + 1 < n ? std::abs(off_diagonal[i]) : 0.));
-      for (unsigned int step = 0; step < 30; ++step)
-        {
-          const double middle = 0.5 * (lower + upper);
-          // Are all pivots of T - middle negative?
-          double pivot = diagonal[0] - middle;
-          bool   above = pivot < 0.;
-          for (std::size_t i = 1; i < n && above; ++i)
-            {
-              pivot = diagonal[i] - middle - off_diagonal[i - 1] * off_diagonal[i - 1] / pivot;
-              above = pivot < 0.;
-            }
-          (above ? upper : lower) = middle;
-        }
-      return upper;
-    }
+    public:
+      /** The largest eigenvalue of that matrix; 1 if there is none. */
+      double
+      largest_eigenvalue() const
+      {
+        if (diagonal.empty())
+          return 1.;
+        dealii::TridiagonalMatrix<double> matrix(diagonal.size(), true);
+        for (unsigned int i = 0; i < diagonal.size(); ++i)
+          {
+            matrix(i, i) = diagonal[i];
+            if (i > 0)
+              matrix(i - 1, i) = off_diagonal[i - 1];
+          }
+        matrix.compute_eigenvalues();
+        return matrix.eigenvalue(diagonal.size() - 1);
+      }
+
+    protected:
+      State
+      decide(const unsigned int step, const double residual, const double gain) override
+      {
+        if (step > 0)
+          {
+            const double energy = preconditioned_square();
+            if (!(energy > 0.))
+              return State::success; // nothing is left
+            const double alpha = gain / energy, beta = step == 1 ? 0. : energy / last_energy;
+            diagonal.push_back(1. / alpha + (step == 1 ? 0. : beta / last_alpha));
+            if (step > 1)
+              off_diagonal.push_back(std::sqrt(beta) / last_alpha);
+            last_alpha  = alpha;
+            last_energy = energy;
+          }
+        return step == n_steps || residual == 0. ? State::success : State::iterate;
+      }
+
+    private:
+      static constexpr unsigned int n_steps = 10;
+      std::vector<double>           diagonal, off_diagonal;
+      double                        last_alpha = 0., last_energy = 0.;
+    };
+
+    /** The inverses of the diagonal's blocks as a preconditioner. */
+    template <typename Number, unsigned int n>
+    struct Jacobi
+    {
+      const BlockJacobi<Number, n> &inverses;
+      VectorOf<Number>             &work;
+
+      void
+      vmult(VectorOf<Number> &z, const VectorOf<Number> &r) const
+      {
+        inverses.start(1., r.begin(), work.begin(), z.begin());
+      }
+    };
   } // namespace
 
   template <typename Number, unsigned int n>
@@ -62,36 +99,15 @@ namespace tetradapt::solve
   double
   ChebyshevSmoother<Number, n>::estimate_lambda() const
   {
-    // Conjugate gradients for a right-hand side that has something of every eigenvector;
-    // their coefficients are those of Lanczos' tridiagonal matrix.
-    VectorOf<Number>  &r = residual, &z = direction, &Ap = product, p(r), copy(r);
+    // For a right-hand side that has something of every eigenvector.
+    VectorOf<Number>   b(residual), x(residual);
     const unsigned int size  = n * inverses.n_nodes();
     const auto         first = matrix.vector_layout()->local_range().first;
     for (unsigned int i = 0; i < size; ++i)
-      r.local_element(i) = pseudo_random(first + i);
-    std::vector<double> diagonal, off_diagonal;
-    double              rz = 0., alpha = 0.;
-    for (unsigned int step = 0; step < 10; ++step)
-      {
-        inverses.start(1., r.begin(), copy.begin(), z.begin());
-        const double before = rz;
-        rz                  = r * z;
-        if (!(rz > 0.))
-          break;
-        const double beta = step == 0 ? 0. : rz / before;
-        p.sadd(static_cast<Number>(beta), 1, z);
-        matrix.vmult(Ap, p);
-        const double pAp = p * Ap;
-        if (!(pAp > 0.))
-          break;
-        const double last = alpha;
-        alpha             = rz / pAp;
-        diagonal.push_back(1. / alpha + (step == 0 ? 0. : beta / last));
-        if (step > 0)
-          off_diagonal.push_back(std::sqrt(beta) / last);
-        r.add(static_cast<Number>(-alpha), Ap);
-      }
-    return diagonal.empty() ? 1. : 1.1 * largest_of_tridiagonal(diagonal, off_diagonal);
+      b.local_element(i) = pseudo_random(first + i);
+    LanczosControl control;
+    conjugate_gradients(matrix, Jacobi<Number, n>{inverses, direction}, b, control, x);
+    return 1.1 * control.largest_eigenvalue();
   }
 
   template <typename Number, unsigned int n>

@@ -4,6 +4,7 @@
 #include "tetradapt/core/exceptions.h"
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/lac/affine_constraints.h>
 
 #include <algorithm>
 #include <cmath>

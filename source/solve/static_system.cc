@@ -9,6 +9,7 @@
 #include "tetradapt/solve/static_solution.h"
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/lac/affine_constraints.h>
 
 #include <algorithm>
 #include <cmath>

@@ -11,6 +11,7 @@
 #include "bodies.h"
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/lac/affine_constraints.h>
 
 using namespace bodies;
 using namespace mechanics;

@@ -10,6 +10,7 @@
 #include "solving.h"
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/lac/affine_constraints.h>
 
 using namespace bodies;
 using scene::LoadType;

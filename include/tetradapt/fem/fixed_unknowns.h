@@ -4,10 +4,14 @@
 
 #include "tetradapt/fem/space.h"
 
-#include <deal.II/lac/affine_constraints.h>
+DEAL_II_NAMESPACE_OPEN
+template <typename Number>
+class AffineConstraints;
+DEAL_II_NAMESPACE_CLOSE
 
 namespace tetradapt::fem
 {
+  /** Its header costs a second to compile: include it where one is made. */
   using Constraints = dealii::AffineConstraints<double>;
 
   /** Constraints of the unknowns that this rank needs of @p space, none yet, not closed. */
