@@ -3,15 +3,15 @@
 // The solver alone, on the clamped beam 10 x 1 x 1 in equal tetrahedra:
 //
 //   tetradapt_solver_benchmark <subdivisions> [degree [nu [contrast [distortion [product
-//     [direct]]]]]]
+//     [direct [trilinos]]]]]]]
 //
 // prints one line of CSV with a header: unknowns, iterations to 1e-8, seconds of set-up
 // (edges, supports, numbering, matrix, preconditioner) and of the solve (iterations,
 // energies), and of one product with the assembled matrix (best of twenty) if product
 // is 1, also in single precision and matrix-free; the sparse Cholesky factorisation solves if
-// direct is 1. CPU seconds, the largest of all ranks, and wall seconds of the first two. A contrast
-// makes the half x > 5 that many times stiffer; a distortion moves inner points by up to that part
-// of a brick.
+// direct is 1; multigrid is that of Trilinos if trilinos is 1. CPU seconds, the largest of all
+// ranks, and wall seconds of the first two. A contrast makes the half x > 5 that many times
+// stiffer; a distortion moves inner points by up to that part of a brick.
 
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/fem/triangulation.h"
@@ -169,8 +169,10 @@ namespace
     const auto argument
       = [&](int i, double value) { return argc > i ? std::stod(argv[i]) : value; };
     const unsigned int n = argument(1, 8), degree = argument(2, 2);
-    const scene::Scene scene = cantilever(argument(3, 0.3), argument(4, 1.), argument(7, 0.) > 0.);
-    const auto         body  = beam(n, argument(5, 0.));
+    scene::Scene       scene = cantilever(argument(3, 0.3), argument(4, 1.), argument(7, 0.) > 0.);
+    if (argument(8, 0.) > 0.)
+      scene.solver.multigrid = scene::SolverParameters::Multigrid::trilinos;
+    const auto body = beam(n, argument(5, 0.));
     mesh::select_faces(*body, mesh::face_selectors(scene));
     const mechanics::MaterialMap materials(scene, *body);
 

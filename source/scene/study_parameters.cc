@@ -29,6 +29,12 @@ namespace tetradapt::scene
              p.direct_limit,
              count_codec(),
              "automatic: largest number of unknowns for the direct solver from the start.");
+      binder("Multigrid",
+             p.multigrid,
+             word_codec<SolverParameters::Multigrid>(),
+             "What conjugate gradients solve the coarse problem of linear elements with: the "
+             "program's own smoothed aggregation, or that of Trilinos (ML), which is slower and "
+             "works in double precision.");
       binder("Stopping",
              p.stopping,
              word_codec<SolverParameters::Stopping>(),

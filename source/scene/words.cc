@@ -136,6 +136,15 @@ namespace tetradapt::scene
     return table;
   }
 
+  const Words<SolverParameters::Multigrid> &
+  words(SolverParameters::Multigrid)
+  {
+    using Multigrid = SolverParameters::Multigrid;
+    static const Words<Multigrid> table{{Multigrid::aggregation, "aggregation"},
+                                        {Multigrid::trilinos, "trilinos"}};
+    return table;
+  }
+
   const Words<AdaptivityParameters::Marking> &
   words(AdaptivityParameters::Marking)
   {

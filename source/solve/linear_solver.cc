@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <type_traits>
 
 namespace tetradapt::solve
 {
@@ -28,6 +29,21 @@ namespace tetradapt::solve
      * remaining ones counts, and the largest number of unknowns. */
     constexpr unsigned int  prediction_from       = 100;
     constexpr unsigned long most_factorised_later = 150000;
+
+    /** One cycle of algebraic multigrid for a matrix of degree 1 times @p scale. */
+    template <typename Number>
+    std::unique_ptr<ApproximateInverse<Number>>
+    coarse_solver(const scene::SolverParameters &parameters,
+                  const mechanics::BlockMatrix  &matrix,
+                  const fem::Space              &space,
+                  const fem::FixedUnknowns      &fixed,
+                  const double                   scale)
+    {
+      if constexpr (std::is_same_v<Number, double>)
+        if (parameters.multigrid == scene::SolverParameters::Multigrid::trilinos)
+          return make_trilinos_amg(matrix, space, fixed);
+      return make_amg<Number>(matrix, space, fixed, scale);
+    }
 
     bool
     is_direct(const scene::SolverParameters &parameters, unsigned long n_dofs)
@@ -59,9 +75,14 @@ namespace tetradapt::solve
       }
     else
       {
-        precondition_in_single();
-        description = space.degree() == 1 ? "conjugate gradients, AMG"
-                                          : "conjugate gradients, p-multigrid on AMG";
+        const bool ml = parameters.multigrid == scene::SolverParameters::Multigrid::trilinos;
+        if (ml)
+          precondition_in_double();
+        else
+          precondition_in_single();
+        description = std::string("conjugate gradients, ")
+                      + (space.degree() == 1 ? "" : "p-multigrid on ")
+                      + (ml ? "Trilinos' AMG" : "AMG");
       }
   }
   double
@@ -85,7 +106,7 @@ namespace tetradapt::solve
   LinearSolver::multigrid(double scale) const
   {
     if (space.degree() == 1)
-      return make_amg<Number>(assembled->matrix, space, fixed, scale);
+      return coarse_solver<Number>(parameters, assembled->matrix, space, fixed, scale);
     coarse_space = fem::Space::linear_part(space);
     const fem::FixedUnknowns coarse_fixed(
       *coarse_space, fem::restrict_to(*coarse_space, space, model.constraints));
@@ -95,7 +116,7 @@ namespace tetradapt::solve
       space,
       *coarse_space,
       fixed,
-      make_amg<Number>(coarse.matrix, *coarse_space, coarse_fixed, scale));
+      coarse_solver<Number>(parameters, coarse.matrix, *coarse_space, coarse_fixed, scale));
   }
 
   void

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "tetradapt/mechanics/rigid_motions.h"
 #include "tetradapt/solve/chebyshev.h"
 #include "tetradapt/solve/preconditioners.h"
+#include "tetradapt/solve/rigid_modes.h"
 
 #include "coarsening.h"
 #include "dense_cholesky.h"
@@ -215,28 +215,6 @@ namespace tetradapt::solve
       std::unique_ptr<DenseCholesky>                 bottom;
       mutable VectorOf<double>                       bottom_values;
     };
-
-    std::vector<NodeModes<3>>
-    rigid_modes(const fem::Space &space, const fem::FixedUnknowns &fixed)
-    {
-      const auto               &mesh   = space.tet_mesh();
-      const auto                box    = mesh::bounding_box(mesh);
-      const auto                centre = box.first + 0.5 * (box.second - box.first);
-      const double              length = 0.5 * (box.second - box.first).norm();
-      std::vector<NodeModes<3>> modes(space.n_owned_nodes());
-      for (unsigned int node = 0; node < modes.size(); ++node)
-        {
-          const unsigned int field_node = space.field_node(node);
-          for (unsigned int k = 0; k < 6; ++k)
-            {
-              const auto motion
-                = mechanics::rigid_motion(k, mesh.points[field_node], centre, length);
-              for (unsigned int c = 0; c < 3; ++c)
-                modes[node][6 * c + k] = fixed.is_fixed(node, c) ? 0. : motion[c];
-            }
-        }
-      return modes;
-    }
   } // namespace
 
   template <typename Number>

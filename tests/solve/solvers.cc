@@ -108,5 +108,11 @@ main(int argc, char *argv[])
       compare("a thousand times stiffer half", cantilever(0.3, 1e3), degree, 40);
     }
   compare("nearly incompressible", cantilever(0.49, 1.), 2, 80);
+  for (const unsigned int degree : {1, 2})
+    {
+      scene::Scene scene     = cantilever(0.3, 1e3);
+      scene.solver.multigrid = scene::SolverParameters::Multigrid::trilinos;
+      compare("multigrid of Trilinos", scene, degree, 60);
+    }
   choice();
 }

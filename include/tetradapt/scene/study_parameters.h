@@ -34,8 +34,15 @@ namespace tetradapt::scene
       discretisation ///< the iterate's own error, estimated, is small compared with that of the
                      ///< mesh
     };
-    Stopping stopping              = Stopping::residual;
-    double   solver_error_fraction = 0.1; ///< discretisation: of the error of the mesh
+    Stopping stopping = Stopping::residual;
+    /** What solves the coarse problem of degree 1 in a step of multigrid. */
+    enum class Multigrid
+    {
+      aggregation, ///< the program's own smoothed aggregation
+      trilinos     ///< that of Trilinos (ML)
+    };
+    Multigrid multigrid             = Multigrid::aggregation;
+    double    solver_error_fraction = 0.1; ///< discretisation: of the error of the mesh
 
     void
     declare(dealii::ParameterHandler &prm) const;

@@ -25,6 +25,7 @@ namespace tetradapt::scene
   const Words<ErrorEstimator>                    &words(ErrorEstimator);
   const Words<MeshParameters::Projection>        &words(MeshParameters::Projection);
   const Words<SolverParameters::Stopping>        &words(SolverParameters::Stopping);
+  const Words<SolverParameters::Multigrid>       &words(SolverParameters::Multigrid);
   const Words<LoadType>                          &words(LoadType);
   const Words<Distribution>                      &words(Distribution);
   const Words<SolverParameters::Type>            &words(SolverParameters::Type);

@@ -46,6 +46,14 @@ namespace tetradapt::solve
            const fem::FixedUnknowns     &fixed,
            double                        scale);
 
+  /** One cycle of Trilinos' smoothed aggregation (ML) with the six rigid motions as near null
+   * space, for a matrix of degree 1. Slower than make_amg() (doc/performance.md), but its coarse
+   * levels are Trilinos' own on any number of ranks. Copies the matrix. Collective. */
+  std::unique_ptr<Preconditioner>
+  make_trilinos_amg(const mechanics::BlockMatrix &matrix,
+                    const fem::Space             &space,
+                    const fem::FixedUnknowns     &fixed);
+
   /**
    * One V-cycle of p-multigrid for a matrix of degree 2: Chebyshev smoothing with
    * 3x3 block Jacobi there, and degree 1 solved by one cycle of @p coarse_solver.

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/solve/rigid_modes.h"
+
+#include "tetradapt/mechanics/rigid_motions.h"
+
+namespace tetradapt::solve
+{
+  std::vector<NodeModes<3>>
+  rigid_modes(const fem::Space &space, const fem::FixedUnknowns &fixed)
+  {
+    const auto               &mesh   = space.tet_mesh();
+    const auto                box    = mesh::bounding_box(mesh);
+    const auto                centre = box.first + 0.5 * (box.second - box.first);
+    const double              length = 0.5 * (box.second - box.first).norm();
+    std::vector<NodeModes<3>> modes(space.n_owned_nodes());
+    for (unsigned int node = 0; node < modes.size(); ++node)
+      {
+        const auto &point = mesh.points[space.field_node(node)];
+        for (unsigned int k = 0; k < 6; ++k)
+          {
+            const auto motion = mechanics::rigid_motion(k, point, centre, length);
+            for (unsigned int c = 0; c < 3; ++c)
+              modes[node][6 * c + k] = fixed.is_fixed(node, c) ? 0. : motion[c];
+          }
+      }
+    return modes;
+  }
+} // namespace tetradapt::solve
