@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/fem/space.h"
 
+#include "tetradapt/core/exceptions.h"
 #include "tetradapt/fem/triangulation.h"
 
 #include <deal.II/base/mpi.h>
@@ -10,6 +11,9 @@
 #include <deal.II/fe/fe_system.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <string>
 
 namespace tetradapt::fem
 {
@@ -27,6 +31,14 @@ namespace tetradapt::fem
     : Space(triangulation, edges, degree)
   {
     AssertThrow(degree == 1 || degree == 2, dealii::ExcNotImplemented());
+    // Local numbers, and MPI's counts, are signed in places.
+    const std::uint64_t n_unknowns
+      = 3 * (std::uint64_t(mesh.n_points()) + (degree == 2 ? edges->edges.size() : 0));
+    if (n_unknowns > std::numeric_limits<std::int32_t>::max())
+      throw core::NumericalError("The mesh has " + std::to_string(n_unknowns)
+                                 + " unknowns, more than the "
+                                 + std::to_string(std::numeric_limits<std::int32_t>::max())
+                                 + " that can be numbered. Use a coarser mesh.");
     handler = std::make_unique<dealii::DoFHandler<3>>(triangulation);
     handler->distribute_dofs(dealii::FESystem<3>(dealii::FE_SimplexP<3>(degree), 3));
     std::vector<global_dof_index> nodes;

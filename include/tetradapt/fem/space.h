@@ -38,6 +38,7 @@ namespace tetradapt::fem
      * Collective. @p edges is needed for degree 2; it and the triangulation must outlive this
      * object.
      * @throws dealii::ExcNotImplemented for another degree.
+     * @throws core::NumericalError for more unknowns than can be numbered.
      */
     Space(const Triangulation &triangulation, unsigned int degree, const mesh::EdgeTable *edges);
 
