@@ -98,7 +98,6 @@ namespace
               const mesh::EdgeTable    &edges)
   {
     using dealii::types::global_dof_index;
-    const mesh::TetMesh &body = triangulation.tet_mesh();
     const fem::Space     space(triangulation, degree, &edges);
     const unsigned int   n_nodes = space.n_nodes_per_cell();
 
