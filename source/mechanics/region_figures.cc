@@ -45,7 +45,7 @@ namespace tetradapt::mechanics
     /**
      * Displacement gradients at the four corners of a cell of degree 2. At corner v, shape
      * function i has the gradient (3 or -1) grad b_i, and the one of edge (v, j) has 4 grad b_j;
-     * since the gradients of barycentric coordinates sum to zero, three of them do.
+     * since the gradients of barycentric coordinates sum to zero, three of them suffice.
      */
     std::array<Tensor<2, 3>, 4>
     corner_gradients(const mesh::NodalField            &u,
@@ -146,8 +146,8 @@ namespace tetradapt::mechanics
           return;
         region = number;
         law    = &materials.law(region);
-        form   = law->pressure_form();
         mixed  = u.pressure != nullptr;
+        form   = mixed ? materials.pressure_form(region) : law->pressure_form();
       }
 
       SymmetricTensor<2, 3>

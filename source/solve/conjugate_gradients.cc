@@ -51,7 +51,16 @@ namespace tetradapt::solve
     lstep  = step;
     lvalue = residual;
     if (!std::isfinite(residual))
-      return lcheck = State::failure;
+      {
+        failure       = Ending::not_finite;
+        return lcheck = State::failure;
+      }
+    // Of a preconditioner that is not positive nothing good can come.
+    if (step > 0 && residual > 0. && !(energy > 0.))
+      {
+        failure       = Ending::not_positive;
+        return lcheck = State::failure;
+      }
     lcheck  = decide(step, residual, step == 0 ? 0. : energy * (energy / curvature));
     started = true;
     return lcheck;
@@ -124,6 +133,7 @@ namespace tetradapt::solve
   EnergyControl::result() const
   {
     IterationResult result = reached;
+    result.residual        = last_value(); // also one that is not finite
     result.gained          = estimate.gained();
     // Too few steps for an estimate: the error falls like the residual.
     const double like_residual = first_residual > 0. ? result.residual / first_residual : 0.;

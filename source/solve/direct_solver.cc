@@ -79,9 +79,11 @@ namespace tetradapt::solve
     {
       if (dealii::Utilities::MPI::n_mpi_processes(communicator) == 1)
         return triangle;
-      return {gather_values(triangle.lengths, communicator),
-              gather_values(triangle.rows, communicator),
-              gather_values(triangle.values, communicator)};
+      const Shares columns(triangle.lengths.size(), communicator);
+      const Shares entries(triangle.rows.size(), communicator);
+      return {gather_values(triangle.lengths, columns, communicator),
+              gather_values(triangle.rows, entries, communicator),
+              gather_values(triangle.values, entries, communicator)};
     }
   } // namespace
 
@@ -189,7 +191,7 @@ namespace tetradapt::solve
     const std::size_t         n = right_hand_side.locally_owned_size();
     const std::vector<double> own(right_hand_side.begin(), right_hand_side.begin() + n);
     const Shares              shares(n, communicator);
-    std::vector<double>       x    = gather_values(own, communicator);
+    std::vector<double>       x    = gather_values(own, shares, communicator);
     const bool                good = !is_first_rank || factors->solve(x);
     if (dealii::Utilities::MPI::min(good ? 1 : 0, communicator) == 0)
       throw_out_of_memory();

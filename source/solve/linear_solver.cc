@@ -24,7 +24,6 @@ namespace tetradapt::solve
     /** Least energy of a solution by that of what was added to the first iterate. */
     constexpr double least_energy = 1e-12;
 
-
     /** Where a factorisation can take over: the iteration from which a prediction of the
      * remaining ones counts, and the largest number of unknowns. */
     constexpr unsigned int  prediction_from       = 100;
@@ -85,6 +84,7 @@ namespace tetradapt::solve
                       + (ml ? "Trilinos' AMG" : "AMG");
       }
   }
+
   double
   LinearSolver::largest_diagonal() const
   {
@@ -180,16 +180,16 @@ namespace tetradapt::solve
                       const std::string &load,
                       Vector            &x) const
   {
-    if (direct != nullptr)
-      {
-        direct->solve(right_hand_side, x);
-        return {0, 0, 0., description};
-      }
     const double norm = load_norm(right_hand_side, load);
     if (!std::isfinite(norm))
       throw core::NumericalError(load
                                  + " are not finite. Look at their values and at the material "
                                    "constants.");
+    if (direct != nullptr)
+      {
+        direct->solve(right_hand_side, x);
+        return {0, 0, 0., description};
+      }
     if (norm > 0.)
       return iterate(right_hand_side, stop, norm, x);
     // Nothing moves but what is fixed, and that moves nothing else.
@@ -273,8 +273,10 @@ namespace tetradapt::solve
       text << "conjugate gradients, iteration " << step << ", residual over tolerance " << relative;
       log.progress(text.str());
     });
-    conjugate_gradients(matrix(), *preconditioner, right_hand_side, control, x);
+    const Ending  ending
+      = conjugate_gradients(matrix(), *preconditioner, right_hand_side, control, x);
     IterationResult result = control.result();
+    result.converged       = ending == Ending::converged;
     if (result.iterations == 0 && result.residual > 0.)
       {
         // No step has told what the residual means for the error.

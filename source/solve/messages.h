@@ -7,7 +7,6 @@
 #include <mpi.h>
 
 #include <limits>
-#include <numeric>
 #include <type_traits>
 #include <vector>
 
@@ -58,7 +57,7 @@ namespace tetradapt::solve
           next += size;
           if (next > static_cast<unsigned long>(std::numeric_limits<int>::max()))
             throw core::NumericalError("The system has more values than MPI can send at once. Use "
-                                       "a coarser mesh, or Solver/Type = cg.");
+                                       "a coarser mesh.");
           sizes.push_back(static_cast<int>(size));
         }
       begins.push_back(static_cast<int>(next));
@@ -68,14 +67,13 @@ namespace tetradapt::solve
   };
 
   /** The values of all ranks, rank by rank, on the first rank; nothing on the others.
-   * Collective. */
+   * Collective. @param shares of the ranks' values. */
   template <typename T>
   std::vector<T>
-  gather_values(const std::vector<T> &own, const MPI_Comm communicator)
+  gather_values(const std::vector<T> &own, const Shares &shares, const MPI_Comm communicator)
   {
     int rank = 0;
     MPI_Comm_rank(communicator, &rank);
-    const Shares         shares(own.size(), communicator);
     std::vector<T>       all(rank == 0 ? shares.begins.back() : 0);
     const MessageType<T> message;
     MPI_Gatherv(own.data(),

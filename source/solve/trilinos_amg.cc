@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+#include "tetradapt/core/exceptions.h"
 #include "tetradapt/solve/preconditioners.h"
 #include "tetradapt/solve/rigid_modes.h"
 #include "tetradapt/solve/trilinos_types.h"
@@ -8,6 +9,8 @@
 #include <Teuchos_ParameterList.hpp>
 #include <ml_MultiLevelPreconditioner.h>
 
+#include <cmath>
+#include <string>
 #include <type_traits>
 
 namespace tetradapt::solve
@@ -17,6 +20,15 @@ namespace tetradapt::solve
     /** What Trilinos numbers rows with. */
     using GlobalIndex
       = std::conditional_t<sizeof(dealii::types::global_dof_index) == 8, long long, int>;
+
+    /** Throws if a function of Trilinos failed; positive numbers are remarks. */
+    void
+    check(const int code)
+    {
+      if (code < 0)
+        throw core::NumericalError("Trilinos could not make a matrix: error " + std::to_string(code)
+                                   + ".");
+    }
 
     /** The same matrix with an entry for each unknown. Supports are built in already. */
     std::unique_ptr<Epetra_CrsMatrix>
@@ -46,12 +58,10 @@ namespace tetradapt::solve
                 values.push_back(value);
               }
           const GlobalIndex row = layout.local_to_global(i);
-          result->InsertGlobalValues(row,
-                                     static_cast<int>(columns.size()),
-                                     values.data(),
-                                     columns.data());
+          check(result->InsertGlobalValues(
+            row, static_cast<int>(columns.size()), values.data(), columns.data()));
         }
-      result->FillComplete();
+      check(result->FillComplete());
       return result;
     }
 
@@ -72,6 +82,10 @@ namespace tetradapt::solve
       TrilinosAmg(const mechanics::BlockMatrix &blocks, const std::vector<NodeModes<3>> &motions)
         : matrix(copy(blocks)), modes(columns_of(motions, matrix->RowMap()))
       {
+        const double size = matrix->NormInf();
+        if (!std::isfinite(size))
+          throw core::NumericalError("The stiffness matrix has entries that are not finite. Look "
+                                     "at the material constants.");
         Teuchos::ParameterList parameters;
         ML_Epetra::SetDefaults("SA", parameters);
         parameters.set("ML output", 0);
@@ -81,7 +95,7 @@ namespace tetradapt::solve
         parameters.set("smoother: Chebyshev alpha", 20.);
         parameters.set("coarse: max size", 1000);
         parameters.set("coarse: type", "Amesos-KLU");
-        parameters.set("coarse: add to diag", 1e-14 * matrix->NormInf());
+        parameters.set("coarse: add to diag", 1e-14 * size);
         parameters.set("ML validate parameter list", false);
         parameters.set("aggregation: type", "Uncoupled");
         parameters.set("null space: type", "pre-computed");

@@ -76,6 +76,7 @@ main(int argc, char *argv[])
   });
   const std::string on_first
     = kind_of([] { core::on_first_rank(MPI_COMM_WORLD, [] { throw std::bad_alloc(); }); });
-  if (rank == n_ranks - 1)
-    std::cout << "on the first rank, seen by the last: " << on_first << '\n';
+  const auto all = dealii::Utilities::MPI::all_gather(MPI_COMM_WORLD, on_first);
+  if (rank == 0)
+    std::cout << "on the first rank, seen by the last: " << all.back() << '\n';
 }

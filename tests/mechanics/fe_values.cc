@@ -52,8 +52,12 @@ namespace
   Vector
   ghosted(const fem::Space &space, const Vector &x)
   {
+#if DEAL_II_VERSION_GTE(9, 5, 0)
+    const auto relevant = dealii::DoFTools::extract_locally_relevant_dofs(space.dof_handler());
+#else
     dealii::IndexSet relevant;
     dealii::DoFTools::extract_locally_relevant_dofs(space.dof_handler(), relevant);
+#endif
     Vector result(space.dof_handler().locally_owned_dofs(), relevant, space.communicator());
     result.copy_locally_owned_data_from(x);
     result.update_ghost_values();

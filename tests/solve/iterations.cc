@@ -44,6 +44,16 @@ namespace
     }
   };
 
+  /** A preconditioner that is negative. */
+  struct Negative
+  {
+    void
+    vmult(PlainVector &y, const PlainVector &x) const
+    {
+      y.equ(-1., x);
+    }
+  };
+
   struct Broken
   {
     void
@@ -123,6 +133,7 @@ namespace
     run("a negative eigenvalue", Chain{n, -50.}, none, b, limits);
     run("NaN in the matrix", Chain{n, nan}, none, b, limits);
     run("NaN in the preconditioner", chain, Broken(), b, limits);
+    run("a negative preconditioner", chain, Negative(), b, limits);
     PlainVector broken(b);
     broken[3] = nan;
     run("NaN in the load", chain, none, broken, limits);
@@ -309,8 +320,9 @@ namespace
     refusal("a law that gives NaN, conjugate gradients", nan, SolverType::cg);
     refusal("a law that gives NaN, factorised", nan, SolverType::direct);
     refusal("a law that gives NaN, automatic", nan, SolverType::automatic);
-    forces[5][1] = nan;
+    forces[1][1] = nan; // of a node that is free
     refusal("a load that is NaN, conjugate gradients", 1., SolverType::cg);
+    refusal("a load that is NaN, factorised", 1., SolverType::direct);
   }
 } // namespace
 

@@ -68,11 +68,19 @@ namespace
     scene::Scene scene     = everything();
     scene.solver.tolerance = 1e-12;
     scene.supports.resize(1); // the faces are too large for the rail
-    const auto body      = box(Point<3>(3, 1, 1), {{2, 1, 1}}, 0., 1.5);
-    scene.solver.type    = SolverType::direct;
-    const auto direct    = solve_scene(scene, body, degree);
-    scene.solver.type    = SolverType::cg;
-    const auto iterative = solve_scene(scene, body, degree);
+    const auto body        = box(Point<3>(3, 1, 1), {{2, 1, 1}}, 0., 1.5);
+    scene.solver.type      = SolverType::direct;
+    const auto direct      = solve_scene(scene, body, degree);
+    scene.solver.type      = SolverType::cg;
+    const auto iterative   = solve_scene(scene, body, degree);
+    scene.solver.multigrid = scene::SolverParameters::Multigrid::trilinos;
+    const auto trilinos    = solve_scene(scene, body, degree);
+    if (print)
+      check("the same with Trilinos' multigrid, P" + std::to_string(degree),
+            trilinos.energy,
+            direct.energy,
+            std::abs(direct.energy),
+            1e-9);
     if (print)
       check("a dozen cells, P" + std::to_string(degree) + ", energy",
             iterative.energy,

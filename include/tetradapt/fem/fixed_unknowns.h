@@ -11,7 +11,8 @@ DEAL_II_NAMESPACE_CLOSE
 
 namespace tetradapt::fem
 {
-  /** Its header costs a second to compile: include it where one is made. */
+  /** deal.II's header of AffineConstraints costs a second to compile: a file that makes, copies
+   * or destroys one includes it, the others need not. */
   using Constraints = dealii::AffineConstraints<double>;
 
   /** Constraints of the unknowns that this rank needs of @p space, none yet, not closed. */

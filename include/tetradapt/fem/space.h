@@ -5,12 +5,17 @@
 #include "tetradapt/mesh/nodal_field.h"
 
 #include <deal.II/base/partitioner.h>
+#include <deal.II/base/template_constraints.h>
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <memory>
 
+// The header of DoFHandler is one of the most expensive to compile.
 DEAL_II_NAMESPACE_OPEN
 template <int dim, int spacedim>
+#if DEAL_II_VERSION_GTE(9, 5, 0)
+DEAL_II_CXX20_REQUIRES((concepts::is_valid_dim_spacedim<dim, spacedim>))
+#endif
 class DoFHandler;
 DEAL_II_NAMESPACE_CLOSE
 
@@ -53,7 +58,8 @@ namespace tetradapt::fem
 
     ~Space();
 
-    /** @throws dealii::ExcNotInitialized for a linear_part(). */
+    /** For FEValues and everything else in deal.II that takes one.
+     * @throws dealii::ExcNotInitialized for a linear_part(), which has none. */
 
     const dealii::DoFHandler<3, 3> &
     dof_handler() const

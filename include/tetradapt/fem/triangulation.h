@@ -15,7 +15,8 @@ namespace tetradapt::fem
    * point with these, in the order of the partition: along a curve through space, which makes
    * the unknowns of neighbours lie close together in memory. A rank without cells has one
    * artificial cell. The mesh's regions are material ids. Patch p of the mesh is boundary id
-   * p + 1; boundary id 0 is left to the outer faces of ghost cells, which deal.II gives it.
+   * p + 1; boundary id 0, which deal.II gives to outer faces of ghost cells that are not on the
+   * mesh's boundary, is left to these.
    *
    * Derived from the base class of deal.II's own distributed triangulations, since
    * parallel::fullydistributed::Triangulation is made from a description of the mesh that

@@ -92,6 +92,15 @@ namespace tetradapt::solve
     unsigned int iterations_to_residual = 0;
   };
 
+  /** How conjugate gradients ended. */
+  enum class Ending
+  {
+    converged,
+    stopped,      ///< by the control
+    not_positive, ///< the matrix, or the preconditioner, to rounding
+    not_finite
+  };
+
   /**
    * A control of conjugate gradients that knows what each step gains: alpha_k (r_k, z_k) =
    * (r_k, z_k)^2 / (p_k, A p_k). deal.II's solver tells beta_k = (r_k, z_k) / (r_k-1, z_k-1); the
@@ -100,9 +109,24 @@ namespace tetradapt::solve
   class GainControl : public dealii::SolverControl
   {
   public:
-    /** Ends with failure where the residual is not finite. */
+    /** Ends with failure where the residual is not finite, or (r, z) not positive. */
     State
     check(unsigned int step, double residual) final;
+
+    /** Why it ended, if it did with failure. */
+    Ending
+    reason() const
+    {
+      return failure;
+    }
+
+    /** For the solver: another solution begins. */
+    void
+    restart()
+    {
+      started = false;
+      failure = Ending::stopped;
+    }
 
     /** For the solver: (r_0, z_0). */
     void
@@ -145,6 +169,7 @@ namespace tetradapt::solve
   private:
     double energy = 0., curvature = 0.;
     bool   started = false;
+    Ending failure = Ending::stopped;
   };
 
   /** Ends conjugate gradients by IterationLimits, and tells how far they have come. */
@@ -177,15 +202,6 @@ namespace tetradapt::solve
     EnergyErrorEstimate                       estimate;
     IterationResult                           reached;
     double                                    first_residual = 0.;
-  };
-
-  /** How conjugate gradients ended. */
-  enum class Ending
-  {
-    converged,
-    stopped,      ///< by the control
-    not_positive, ///< the matrix is not, to rounding, along a direction
-    not_finite
   };
 
   namespace internal
@@ -242,7 +258,7 @@ namespace tetradapt::solve
   /**
    * deal.II's conjugate gradients for matrix x = @p right_hand_side from @p x on, until
    * @p control ends them. Collective if the vectors are distributed.
-   * @param matrix and @param preconditioner have vmult(), and are symmetric and positive.
+   * @param matrix has vmult(), is symmetric and positive; so is @p preconditioner.
    * @param x stays what it was if it would not be finite.
    */
   template <typename Matrix, typename Preconditioner, typename VectorType>
@@ -253,7 +269,11 @@ namespace tetradapt::solve
                       GainControl          &control,
                       VectorType           &x)
   {
-    const VectorType                          start = x;
+    VectorType start;
+    const bool from_zero = x.all_zero();
+    if (!from_zero)
+      start = x;
+    control.restart();
     dealii::PrimitiveVectorMemory<VectorType> memory; // the default one keeps its vectors
     dealii::SolverCG<VectorType>              solver(control, memory);
     solver.connect_coefficients_slot(
@@ -265,6 +285,9 @@ namespace tetradapt::solve
                      x,
                      right_hand_side,
                      internal::ObservedPreconditioner<Preconditioner>{preconditioner, control});
+        // A failure at the first residual is not thrown.
+        if (control.last_check() != dealii::SolverControl::success)
+          ending = control.reason();
       }
     catch (const internal::NoStep &none)
       {
@@ -272,11 +295,15 @@ namespace tetradapt::solve
       }
     catch (const dealii::SolverControl::NoConvergence &)
       {
-        ending = Ending::stopped;
+        ending = control.reason();
       }
-    if (!std::isfinite(x.l2_norm()))
+    // Not by squares, which overflow for large displacements.
+    if (!std::isfinite(x.l1_norm()))
       {
-        x      = start;
+        if (from_zero)
+          x = 0.;
+        else
+          x = start;
         ending = Ending::not_finite;
       }
     return ending;

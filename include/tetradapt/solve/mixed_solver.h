@@ -28,7 +28,7 @@ namespace tetradapt::solve
     const fem::Space                        &space; ///< of degree 2
     const mechanics::MaterialMap            &materials;
     const mechanics::PrescribedDisplacement &prescribed;
-    const fem::FixedUnknowns                &fixed; ///< the same
+    const fem::FixedUnknowns                &fixed; ///< prescribed, in local numbers
     const LinearSolver                      &kept;  ///< of kept_scene()
   };
 

@@ -7,7 +7,8 @@
 #include <Epetra_MultiVector.h>
 
 /**
- * The only header that names Trilinos; another back end needs another one.
+ * The only header that names deal.II's wrappers of Trilinos. ML is called in one file,
+ * solve/trilinos_amg.cc, and for hexahedra.
  */
 namespace tetradapt::solve
 {

@@ -19,6 +19,9 @@ namespace tetradapt::estimate
   {
     using Values = EnrichedSpace::Values;
 
+    /** A residual that is this small, relative to the forces, is none. */
+    constexpr double rounding = 1e-14;
+
     /** Adds the loads' forces on the surplus; those on the nodes are known. Loads are sampled
      * as for the solution. */
     class SurplusLoads
@@ -257,6 +260,7 @@ namespace tetradapt::estimate
   EnrichedProblem::solve(const Values &forces, double tolerance) const
   {
     solve::IterationLimits limits;
+    limits.residual       = rounding * forces.l2_norm();
     limits.relative_error = tolerance;
     limits.max_iterations = 500; // tens are usual, at Poisson ratios near 0.5, too
     solve::EnergyControl control(limits);
@@ -272,7 +276,7 @@ namespace tetradapt::estimate
         + " iterations. Look for materials of very different stiffness, a Poisson ratio close to "
           "0.5 or very flat elements, or choose another estimator in Estimation.");
     result.norm         = std::sqrt(reached.gained);
-    result.error        = reached.residual > 0. ? reached.error : 0.;
+    result.error        = reached.residual > limits.residual ? reached.error : 0.;
     result.n_iterations = reached.iterations;
     return result;
   }
