@@ -24,7 +24,8 @@ namespace tetradapt::core
       std::string        text, word;
       while (words >> word)
         text += (text.empty() ? "" : " ") + word;
-      return std::string(error.get_exc_name()) + (text.empty() ? "" : ": " + text);
+      const std::string name = error.get_exc_name();
+      return name + (name.empty() || text.empty() ? "" : ": ") + text;
     }
   } // namespace
 
