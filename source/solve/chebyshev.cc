@@ -50,8 +50,10 @@ namespace tetradapt::solve
   template <typename Number, unsigned int n>
   ChebyshevSmoother<Number, n>::ChebyshevSmoother(const mechanics::LinearOperator<Number> &matrix,
                                                   const std::vector<Block>                &inverses,
-                                                  unsigned int                             degree)
-    : matrix(matrix), inverses(inverses), degree(degree)
+                                                  unsigned int                             degree,
+                                                  const ClusterJacobi<Number>             *clusters)
+    : matrix(matrix), inverses(clusters != nullptr ? clusters->without_own(inverses) : inverses),
+      clusters(clusters), degree(degree)
   {
     for (auto *vector : {&residual, &direction, &product})
       vector->reinit(matrix.vector_layout());
@@ -74,6 +76,8 @@ namespace tetradapt::solve
     for (unsigned int step = 0; step < 10; ++step)
       {
         inverses.start(1., r.begin(), copy.begin(), z.begin());
+        if (clusters != nullptr)
+          clusters->add(1., r.begin(), copy.begin(), z.begin());
         const double before = rz;
         rz                  = r * z;
         if (!(rz > 0.))
@@ -99,6 +103,8 @@ namespace tetradapt::solve
   ChebyshevSmoother<Number, n>::start(VectorOf<Number> &x, const VectorOf<Number> &b) const
   {
     inverses.start(4. / (3. * lambda), b.begin(), direction.begin(), x.begin());
+    if (clusters != nullptr)
+      clusters->add(4. / (3. * lambda), b.begin(), direction.begin(), x.begin());
     iterate(x, b, 2);
   }
 
@@ -107,13 +113,21 @@ namespace tetradapt::solve
   ChebyshevSmoother<Number, n>::step(VectorOf<Number> &x, const VectorOf<Number> &b) const
   {
     matrix.vmult(product, x);
-    inverses.step({0., 4. / (3. * lambda), degree == 1},
-                  b.begin(),
-                  product.begin(),
-                  residual.begin(),
-                  direction.begin(),
-                  x.begin());
+    step_of_all({0., 4. / (3. * lambda), degree == 1}, b.begin(), x);
     iterate(x, residual, 2);
+  }
+
+  template <typename Number, unsigned int n>
+  void
+  ChebyshevSmoother<Number, n>::step_of_all(JacobiStep        step,
+                                            const Number     *from,
+                                            VectorOf<Number> &x) const
+  {
+    if (clusters != nullptr)
+      step.is_last = false; // the clusters need the residual also
+    inverses.step(step, from, product.begin(), residual.begin(), direction.begin(), x.begin());
+    if (clusters != nullptr)
+      clusters->add(step.factor, residual.begin(), direction.begin(), x.begin());
   }
 
   template <typename Number, unsigned int n>
@@ -125,14 +139,11 @@ namespace tetradapt::solve
     for (unsigned int k = begin; k <= degree; ++k)
       {
         matrix.vmult(product, direction);
-        inverses.step({(2. * k - 3.) / (2. * k + 1.),
-                       (8. * k - 4.) / ((2. * k + 1.) * lambda),
-                       k == degree},
-                      k == begin ? first.begin() : residual.begin(),
-                      product.begin(),
-                      residual.begin(),
-                      direction.begin(),
-                      x.begin());
+        step_of_all({(2. * k - 3.) / (2. * k + 1.),
+                     (8. * k - 4.) / ((2. * k + 1.) * lambda),
+                     k == degree},
+                    k == begin ? first.begin() : residual.begin(),
+                    x);
       }
   }
 

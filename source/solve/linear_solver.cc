@@ -3,6 +3,8 @@
 
 #include "tetradapt/core/exceptions.h"
 
+#include "flat_correction.h"
+
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -25,9 +27,11 @@ namespace tetradapt::solve
     /** Iterations in vain after which a preconditioner in single precision is suspected. */
     constexpr unsigned int patience = 200;
 
-    /** Where a factorisation can take over: the iteration from which a prediction of the
-     * remaining ones counts, and the largest number of unknowns. */
-    constexpr unsigned int  prediction_from       = 100;
+    /** The iteration from which a prediction of the remaining ones counts. Both attempts, in
+     * single and in double precision, end within 100 iterations where they get nowhere. */
+    constexpr unsigned int prediction_from = 40;
+
+    /** The largest number of unknowns for which a factorisation takes over. */
     constexpr unsigned long most_factorised_later = 150000;
 
     bool
@@ -61,7 +65,13 @@ namespace tetradapt::solve
       }
     else
       {
-        precondition_in_single();
+        if (space.degree() == 2)
+          flat = find_flat_nodes(space);
+        // Bending of flat cells is lost in the rounding of single precision.
+        if (!flat.exist)
+          precondition_in_single();
+        else
+          precondition_in_double();
         description = space.degree() == 1 ? "conjugate gradients, AMG"
                                           : "conjugate gradients, p-multigrid on AMG";
       }
@@ -90,13 +100,22 @@ namespace tetradapt::solve
       return make_amg<Number>(assembled->matrix, space, prescribed, scale);
     coarse_space      = std::make_unique<mechanics::DisplacementSpace>(model.partition, 1, nullptr);
     const auto coarse = mechanics::assemble(*coarse_space, model.tangents, prescribed);
+    std::unique_ptr<FlatCorrection<Number>> flat_correction;
+    if (flat.exist)
+      flat_correction = std::make_unique<FlatCorrection<Number>>(
+        mechanics::assemble(space, model.tangents, prescribed).matrix.rows(),
+        space,
+        prescribed,
+        flat,
+        scale);
     return make_p_multigrid<Number>(
       std::make_unique<mechanics::MatrixFreeStiffness<Number>>(
         space, model.tangents, prescribed, scale),
       space,
       *coarse_space,
       prescribed,
-      make_amg<Number>(coarse.matrix, *coarse_space, prescribed, scale));
+      make_amg<Number>(coarse.matrix, *coarse_space, prescribed, scale),
+      std::move(flat_correction));
   }
 
   void
@@ -204,7 +223,7 @@ namespace tetradapt::solve
     limits.residual       = tolerance * norm;
     limits.error          = stop.algebraic_error;
     limits.relative_error = stop.relative_error;
-    limits.give_up_from   = can_factorise_instead() ? prediction_from : 0;
+    limits.give_up_from   = prediction_from;
     LinearResult result{0, 0, 0., description};
     double       gained = 0.;
     // The residual's norm is ruled by stiff and by flat elements. So it may be small

@@ -4,6 +4,7 @@
 
 #include "tetradapt/mechanics/matrix_free_stiffness.h"
 #include "tetradapt/mechanics/stiffness.h"
+#include "tetradapt/solve/flat_nodes.h"
 
 #include <memory>
 
@@ -46,9 +47,16 @@ namespace tetradapt::solve
            const mechanics::PrescribedDisplacement &prescribed,
            double                                   scale);
 
+  /** What makes up for flat and long cells: source/solve/flat_correction.h. */
+  template <typename Number>
+  class FlatCorrection;
+
   /**
    * One V-cycle of p-multigrid for a matrix of degree 2: Chebyshev smoothing with
-   * 3x3 block Jacobi there, and degree 1 solved by one cycle of @p coarse_solver.
+   * 3x3 block Jacobi there, and degree 1 solved by one cycle of @p coarse_solver. Where cells
+   * are flat or long, the smoother has larger blocks and FlatCorrection corrects also.
+   * @param assembled is the matrix of degree 2 without the scale of @p fine, needed only if
+   *        there are @p flat nodes.
    * @tparam Number is float or double. Keeps references to both spaces.
    */
   template <typename Number>
@@ -57,7 +65,8 @@ namespace tetradapt::solve
                    const mechanics::DisplacementSpace                     &fine_space,
                    const mechanics::DisplacementSpace                     &coarse_space,
                    const mechanics::PrescribedDisplacement                &prescribed,
-                   std::unique_ptr<ApproximateInverse<Number>>             coarse_solver);
+                   std::unique_ptr<ApproximateInverse<Number>>             coarse_solver,
+                   std::unique_ptr<FlatCorrection<Number>>                 flat);
 } // namespace tetradapt::solve
 
 #endif
