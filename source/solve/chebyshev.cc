@@ -74,12 +74,15 @@ namespace tetradapt::solve
     struct Jacobi
     {
       const BlockJacobi<Number, n> &inverses;
+      const ClusterJacobi<Number>  *clusters; ///< may be null
       VectorOf<Number>             &work;
 
       void
       vmult(VectorOf<Number> &z, const VectorOf<Number> &r) const
       {
         inverses.start(1., r.begin(), work.begin(), z.begin());
+        if (clusters != nullptr)
+          clusters->add(1., r.begin(), work.begin(), z.begin());
       }
     };
   } // namespace
@@ -87,8 +90,10 @@ namespace tetradapt::solve
   template <typename Number, unsigned int n>
   ChebyshevSmoother<Number, n>::ChebyshevSmoother(const mechanics::LinearOperator<Number> &matrix,
                                                   const std::vector<Block>                &inverses,
-                                                  unsigned int                             degree)
-    : matrix(matrix), inverses(inverses), degree(degree)
+                                                  unsigned int                             degree,
+                                                  const ClusterJacobi<Number>             *clusters)
+    : matrix(matrix), inverses(clusters != nullptr ? clusters->without_own(inverses) : inverses),
+      clusters(clusters), degree(degree)
   {
     for (auto *vector : {&residual, &direction, &product})
       vector->reinit(matrix.vector_layout());
@@ -106,7 +111,7 @@ namespace tetradapt::solve
     for (unsigned int i = 0; i < size; ++i)
       b.local_element(i) = pseudo_random(first + i);
     LanczosControl control;
-    conjugate_gradients(matrix, Jacobi<Number, n>{inverses, direction}, b, control, x);
+    conjugate_gradients(matrix, Jacobi<Number, n>{inverses, clusters, direction}, b, control, x);
     return 1.1 * control.largest_eigenvalue();
   }
 
@@ -115,6 +120,8 @@ namespace tetradapt::solve
   ChebyshevSmoother<Number, n>::start(VectorOf<Number> &x, const VectorOf<Number> &b) const
   {
     inverses.start(4. / (3. * lambda), b.begin(), direction.begin(), x.begin());
+    if (clusters != nullptr)
+      clusters->add(4. / (3. * lambda), b.begin(), direction.begin(), x.begin());
     iterate(x, b, 2);
   }
 
@@ -123,13 +130,21 @@ namespace tetradapt::solve
   ChebyshevSmoother<Number, n>::step(VectorOf<Number> &x, const VectorOf<Number> &b) const
   {
     matrix.vmult(product, x);
-    inverses.step({0., 4. / (3. * lambda), degree == 1},
-                  b.begin(),
-                  product.begin(),
-                  residual.begin(),
-                  direction.begin(),
-                  x.begin());
+    step_of_all({0., 4. / (3. * lambda), degree == 1}, b.begin(), x);
     iterate(x, residual, 2);
+  }
+
+  template <typename Number, unsigned int n>
+  void
+  ChebyshevSmoother<Number, n>::step_of_all(JacobiStep        step,
+                                            const Number     *from,
+                                            VectorOf<Number> &x) const
+  {
+    if (clusters != nullptr)
+      step.is_last = false; // the clusters need the residual also
+    inverses.step(step, from, product.begin(), residual.begin(), direction.begin(), x.begin());
+    if (clusters != nullptr)
+      clusters->add(step.factor, residual.begin(), direction.begin(), x.begin());
   }
 
   template <typename Number, unsigned int n>
@@ -141,14 +156,11 @@ namespace tetradapt::solve
     for (unsigned int k = begin; k <= degree; ++k)
       {
         matrix.vmult(product, direction);
-        inverses.step({(2. * k - 3.) / (2. * k + 1.),
-                       (8. * k - 4.) / ((2. * k + 1.) * lambda),
-                       k == degree},
-                      k == begin ? first.begin() : residual.begin(),
-                      product.begin(),
-                      residual.begin(),
-                      direction.begin(),
-                      x.begin());
+        step_of_all({(2. * k - 3.) / (2. * k + 1.),
+                     (8. * k - 4.) / ((2. * k + 1.) * lambda),
+                     k == degree},
+                    k == begin ? first.begin() : residual.begin(),
+                    x);
       }
   }
 

@@ -79,6 +79,24 @@ namespace tetradapt::solve
       return std::make_shared<dealii::Utilities::MPI::Partitioner>(owned, ghosts, communicator);
     }
 
+    /** T itself, of the first @p n_rows nodes. */
+    template <unsigned int n>
+    BlockRows<n, 6>
+    unsmoothed(const LocalTentative<n> &tentative, unsigned int n_rows)
+    {
+      BlockRows<n, 6> P;
+      for (unsigned int row = 0; row < n_rows; ++row)
+        {
+          if (tentative.aggregates[row] != no_aggregate)
+            {
+              P.columns.push_back(tentative.aggregates[row]);
+              P.blocks.push_back(tentative.rows[row]);
+            }
+          P.begin.push_back(P.columns.size());
+        }
+      return P;
+    }
+
     template <unsigned int n>
     void
     keep_rows(BlockRows<n, 6> &matrix, unsigned int n_rows)
@@ -94,13 +112,12 @@ namespace tetradapt::solve
   coarsen(const BlockRows<n, n>           &matrix,
           const std::vector<NodeModes<n>> &modes,
           const Layout                    &layout,
-          const double                     threshold,
-          const double                     omega,
+          const Aggregates                &aggregates,
+          const std::vector<double>       &omegas,
           const double                     least_reduction)
   {
-    const Aggregates   aggregates = aggregate(matrix, threshold);
-    const auto         firsts     = first_numbers(aggregates.count, layout);
-    const unsigned int total      = firsts.back();
+    const auto         firsts = first_numbers(aggregates.count, layout);
+    const unsigned int total  = firsts.back();
     if (total == 0 || least_reduction * total > layout->size() / n)
       return std::nullopt;
     auto           tentative = tentative_prolongation<n>(aggregates, modes);
@@ -110,13 +127,18 @@ namespace tetradapt::solve
     auto          &P      = result.prolongation;
     CoarseMatrix  &coarse = result.coarse;
     coarse.n_nodes        = total;
-    P                     = smooth<n>(
-      matrix,
-      inverse_diagonal(matrix),
-      with_ghosts<n>(aggregates, tentative.rows, firsts[layout->this_mpi_process()], layout),
-      total,
-      omega);
+    const LocalTentative<n> local
+      = with_ghosts<n>(aggregates, tentative.rows, firsts[layout->this_mpi_process()], layout);
+    if (omegas.empty())
+      P = unsmoothed(local, matrix.n_rows());
+    else
+      P = smooth<n>(matrix, inverse_diagonal(matrix), local, total, omegas[0]);
     append_ghost_rows(P, layout);
+    for (unsigned int k = 1; k < omegas.size(); ++k)
+      {
+        P = smooth_further<n>(matrix, inverse_diagonal(matrix), P, total, omegas[k]);
+        append_ghost_rows(P, layout);
+      }
     coarse.rows  = galerkin(matrix, P, total);
     coarse.modes = std::move(tentative.coarse_modes);
     keep_rows(P, matrix.n_rows());
@@ -142,14 +164,14 @@ namespace tetradapt::solve
   coarsen(const BlockRows<3, 3> &,
           const std::vector<NodeModes<3>> &,
           const Layout &,
-          double,
-          double,
+          const Aggregates &,
+          const std::vector<double> &,
           double);
   template std::optional<Coarsening<6>>
   coarsen(const BlockRows<6, 6> &,
           const std::vector<NodeModes<6>> &,
           const Layout &,
-          double,
-          double,
+          const Aggregates &,
+          const std::vector<double> &,
           double);
 } // namespace tetradapt::solve

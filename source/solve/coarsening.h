@@ -31,8 +31,9 @@ namespace tetradapt::solve
    * Collective.
    *
    * @param modes are the rigid motions at the owned nodes.
-   * @param threshold as in aggregate().
-   * @param omega damps the prolongation: P = (1 - omega D^-1 A) T.
+   * @param aggregates are sets of the owned nodes.
+   * @param omegas smooth the prolongation, one factor after the other:
+   *        P = ... (1 - omegas[1] D^-1 A) (1 - omegas[0] D^-1 A) T. None: P = T.
    * @param least_reduction is how many times fewer nodes are worth a level.
    * @return nothing if the reduction is less, or if there is nothing to be corrected.
    */
@@ -41,8 +42,8 @@ namespace tetradapt::solve
   coarsen(const BlockRows<n, n>           &matrix,
           const std::vector<NodeModes<n>> &modes,
           const Layout                    &layout,
-          double                           threshold,
-          double                           omega,
+          const Aggregates                &aggregates,
+          const std::vector<double>       &omegas,
           double                           least_reduction);
 } // namespace tetradapt::solve
 

@@ -210,6 +210,42 @@ namespace tetradapt::solve
   }
 
   template <unsigned int n>
+  BlockRows<n, 6>
+  smooth_further(const BlockRows<n, n>                        &matrix,
+                 const std::vector<std::array<double, n * n>> &inverse_diagonal,
+                 const BlockRows<n, 6>                        &prolongation,
+                 unsigned int                                  n_aggregates,
+                 double                                        omega)
+  {
+    BlockRows<n, 6>  product;
+    RowBuilder<n, 6> product_builder(product, n_aggregates);
+    multiply_all(matrix, prolongation, product_builder);
+    BlockRows<n, 6>  P;
+    RowBuilder<n, 6> builder(P, n_aggregates);
+    P.columns.reserve(product.columns.size());
+    P.blocks.reserve(product.columns.size());
+    for (unsigned int row = 0; row < matrix.n_rows(); ++row)
+      {
+        for (std::size_t k = product.begin[row]; k < product.begin[row + 1]; ++k)
+          {
+            double result[6 * n] = {};
+            multiply<n>(inverse_diagonal[row].data(), product.blocks[k].data(), result);
+            auto &block = builder.block(product.columns[k]);
+            for (unsigned int i = 0; i < 6 * n; ++i)
+              block[i] = -omega * result[i];
+          }
+        for (std::size_t k = prolongation.begin[row]; k < prolongation.begin[row + 1]; ++k)
+          {
+            auto &block = builder.block(prolongation.columns[k]);
+            for (unsigned int i = 0; i < 6 * n; ++i)
+              block[i] += prolongation.blocks[k][i];
+          }
+        builder.end_row();
+      }
+    return P;
+  }
+
+  template <unsigned int n>
   BlockRows<6, 6>
   galerkin(const BlockRows<n, n> &matrix,
            const BlockRows<n, 6> &prolongation,
@@ -242,6 +278,18 @@ namespace tetradapt::solve
             const LocalTentative<6> &,
             unsigned int,
             double);
+  template BlockRows<3, 6>
+  smooth_further<3>(const BlockRows<3, 3> &,
+                    const std::vector<std::array<double, 9>> &,
+                    const BlockRows<3, 6> &,
+                    unsigned int,
+                    double);
+  template BlockRows<6, 6>
+  smooth_further<6>(const BlockRows<6, 6> &,
+                    const std::vector<std::array<double, 36>> &,
+                    const BlockRows<6, 6> &,
+                    unsigned int,
+                    double);
   template BlockRows<6, 6>
   galerkin<3>(const BlockRows<3, 3> &, const BlockRows<3, 6> &, unsigned int);
   template BlockRows<6, 6>

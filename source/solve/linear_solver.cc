@@ -3,6 +3,8 @@
 
 #include "tetradapt/core/exceptions.h"
 
+#include "flat_correction.h"
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/affine_constraints.h>
 
@@ -24,9 +26,11 @@ namespace tetradapt::solve
     /** Least energy of a solution by that of what was added to the first iterate. */
     constexpr double least_energy = 1e-12;
 
-    /** Where a factorisation can take over: the iteration from which a prediction of the
-     * remaining ones counts, and the largest number of unknowns. */
-    constexpr unsigned int  prediction_from       = 100;
+    /** The iteration from which a prediction of the remaining ones counts. Both attempts, in
+     * single and in double precision, end within 100 iterations where they get nowhere. */
+    constexpr unsigned int prediction_from = 40;
+
+    /** The largest number of unknowns for which a factorisation takes over. */
     constexpr unsigned long most_factorised_later = 150000;
 
     /** One cycle of algebraic multigrid for a matrix of degree 1 times @p scale. */
@@ -74,8 +78,11 @@ namespace tetradapt::solve
       }
     else
       {
+        if (space.degree() == 2)
+          flat = find_flat_nodes(space);
         const bool ml = parameters.multigrid == scene::SolverParameters::Multigrid::trilinos;
-        if (ml)
+        // Bending of flat cells is lost in the rounding of single precision.
+        if (ml || flat.exist)
           precondition_in_double();
         else
           precondition_in_single();
@@ -111,12 +118,17 @@ namespace tetradapt::solve
     const fem::FixedUnknowns coarse_fixed(
       *coarse_space, fem::restrict_to(*coarse_space, space, model.constraints));
     const auto coarse = mechanics::assemble(*coarse_space, model.tangents, coarse_fixed);
+    std::unique_ptr<FlatCorrection<Number>> flat_correction;
+    if (flat.exist)
+      flat_correction = std::make_unique<FlatCorrection<Number>>(
+        mechanics::assemble(space, model.tangents, fixed).matrix.rows(), space, fixed, flat, scale);
     return make_p_multigrid<Number>(
       std::make_unique<mechanics::MatrixFreeStiffness<Number>>(space, model.tangents, fixed, scale),
       space,
       *coarse_space,
       fixed,
-      coarse_solver<Number>(parameters, coarse.matrix, *coarse_space, coarse_fixed, scale));
+      coarse_solver<Number>(parameters, coarse.matrix, *coarse_space, coarse_fixed, scale),
+      std::move(flat_correction));
   }
 
   void
@@ -223,7 +235,7 @@ namespace tetradapt::solve
     limits.residual       = tolerance * norm;
     limits.error          = stop.algebraic_error;
     limits.relative_error = stop.relative_error;
-    limits.give_up_from   = can_factorise_instead() ? prediction_from : 0;
+    limits.give_up_from   = prediction_from;
     LinearResult result{0, 0, 0., description};
     double       gained = 0.;
     // The residual's norm is ruled by stiff and by flat elements. So it may be small

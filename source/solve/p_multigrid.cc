@@ -2,6 +2,7 @@
 #include "tetradapt/solve/chebyshev.h"
 #include "tetradapt/solve/preconditioners.h"
 
+#include "flat_correction.h"
 
 namespace tetradapt::solve
 {
@@ -81,10 +82,14 @@ namespace tetradapt::solve
                  const fem::Space                           &fine_space,
                  const fem::Space                           &coarse_space,
                  const fem::FixedUnknowns                   &fixed,
-                 std::unique_ptr<ApproximateInverse<Number>> coarse)
+                 std::unique_ptr<ApproximateInverse<Number>> coarse,
+                 std::unique_ptr<FlatCorrection<Number>>     flat_correction)
         : matrix(std::move(fine)), transfer(fine_space, coarse_space, fixed),
-          coarse_solver(std::move(coarse)),
-          smoother(*matrix, invert_blocks<Number, 3>(matrix->diagonal_blocks()), smoother_degree)
+          coarse_solver(std::move(coarse)), flat(std::move(flat_correction)),
+          smoother(*matrix,
+                   invert_blocks<Number, 3>(matrix->diagonal_blocks()),
+                   smoother_degree,
+                   flat != nullptr ? &flat->blocks() : nullptr)
       {
         product.reinit(fine_space.vector_layout());
         coarse_residual.reinit(coarse_space.vector_layout());
@@ -95,17 +100,32 @@ namespace tetradapt::solve
       vmult(VectorOf<Number> &destination, const VectorOf<Number> &source) const override
       {
         smoother.start(destination, source);
-        matrix->vmult(product, destination);
-        transfer.restrict_residual(coarse_residual, source, product);
-        coarse_solver->vmult(coarse_correction, coarse_residual);
-        transfer.add_prolongated(destination, coarse_correction);
+        correct(destination, source);
+        if (flat != nullptr)
+          {
+            matrix->vmult(product, destination);
+            product.sadd(-1, 1, source);
+            flat->correct(product, destination);
+            correct(destination, source); // twice, for symmetry
+          }
         smoother.step(destination, source);
       }
 
     private:
+      /** Adds the correction of degree 1 for the residual of @p x. */
+      void
+      correct(VectorOf<Number> &x, const VectorOf<Number> &b) const
+      {
+        matrix->vmult(product, x);
+        transfer.restrict_residual(coarse_residual, b, product);
+        coarse_solver->vmult(coarse_correction, coarse_residual);
+        transfer.add_prolongated(x, coarse_correction);
+      }
+
       std::unique_ptr<Matrix>                     matrix;
       Transfer                                    transfer;
       std::unique_ptr<ApproximateInverse<Number>> coarse_solver;
+      std::unique_ptr<FlatCorrection<Number>>     flat; ///< may be null
       ChebyshevSmoother<Number, 3>                smoother;
       mutable VectorOf<Number>                    product, coarse_residual, coarse_correction;
     };
@@ -117,10 +137,11 @@ namespace tetradapt::solve
                    const fem::Space                                       &fine_space,
                    const fem::Space                                       &coarse_space,
                    const fem::FixedUnknowns                               &fixed,
-                   std::unique_ptr<ApproximateInverse<Number>>             coarse_solver)
+                   std::unique_ptr<ApproximateInverse<Number>>             coarse_solver,
+                   std::unique_ptr<FlatCorrection<Number>>                 flat)
   {
     return std::make_unique<PMultigrid<Number>>(
-      std::move(fine), fine_space, coarse_space, fixed, std::move(coarse_solver));
+      std::move(fine), fine_space, coarse_space, fixed, std::move(coarse_solver), std::move(flat));
   }
 
   template std::unique_ptr<ApproximateInverse<float>>
@@ -128,11 +149,13 @@ namespace tetradapt::solve
                    const fem::Space &,
                    const fem::Space &,
                    const fem::FixedUnknowns &,
-                   std::unique_ptr<ApproximateInverse<float>>);
+                   std::unique_ptr<ApproximateInverse<float>>,
+                   std::unique_ptr<FlatCorrection<float>>);
   template std::unique_ptr<ApproximateInverse<double>>
   make_p_multigrid(std::unique_ptr<mechanics::MatrixFreeStiffness<double>>,
                    const fem::Space &,
                    const fem::Space &,
                    const fem::FixedUnknowns &,
-                   std::unique_ptr<ApproximateInverse<double>>);
+                   std::unique_ptr<ApproximateInverse<double>>,
+                   std::unique_ptr<FlatCorrection<double>>);
 } // namespace tetradapt::solve

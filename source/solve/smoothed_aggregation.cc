@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "tetradapt/solve/chebyshev.h"
 #include "tetradapt/solve/preconditioners.h"
-#include "tetradapt/solve/rigid_modes.h"
 
-#include "coarsening.h"
-#include "dense_cholesky.h"
-
-#include <algorithm>
+#include "aggregate_levels.h"
+#include "rigid_modes.h"
 
 namespace tetradapt::solve
 {
@@ -17,87 +13,10 @@ namespace tetradapt::solve
     constexpr double damping = 1.45;
     /** Couplings that aggregates follow, relative to the largest: supports of smoothed
      * prolongations overlap far and weakly on the coarser levels. */
-    constexpr double       fine_threshold = 0.1, coarse_threshold = 0.25;
-    constexpr unsigned int max_coarse_rows = 60; ///< aggregates that a dense matrix is made for
+    constexpr double fine_threshold = 0.1, coarse_threshold = 0.25;
 
-    template <typename Number, unsigned int n>
-    class Prolongation
-    {
-    public:
-      Prolongation() = default;
-      explicit Prolongation(const BlockRows<n, 6> &rows)
-        : begin(rows.begin), columns(rows.columns), blocks(rows.blocks.size())
-      {
-        for (std::size_t k = 0; k < blocks.size(); ++k)
-          std::copy(rows.blocks[k].begin(), rows.blocks[k].end(), blocks[k].begin());
-      }
-
-      /** fine += P coarse. */
-      void
-      add(Number *fine, const double *coarse) const
-      {
-        for (std::size_t row = 0; row + 1 < begin.size(); ++row, fine += n)
-          for (std::size_t k = begin[row]; k < begin[row + 1]; ++k)
-            {
-              Number x[6];
-              std::copy_n(coarse + 6 * std::size_t(columns[k]), 6, x);
-              for (unsigned int i = 0; i < n; ++i)
-                for (unsigned int j = 0; j < 6; ++j)
-                  fine[i] += blocks[k][6 * i + j] * x[j];
-            }
-      }
-
-      /** coarse += P^T fine. */
-      void
-      add_transposed(double *coarse, const Number *fine) const
-      {
-        for (std::size_t row = 0; row + 1 < begin.size(); ++row, fine += n)
-          for (std::size_t k = begin[row]; k < begin[row + 1]; ++k)
-            {
-              Number sums[6] = {};
-              for (unsigned int i = 0; i < n; ++i)
-                for (unsigned int j = 0; j < 6; ++j)
-                  sums[j] += blocks[k][6 * i + j] * fine[i];
-              double *x = coarse + 6 * std::size_t(columns[k]);
-              for (unsigned int j = 0; j < 6; ++j)
-                x[j] += sums[j];
-            }
-      }
-
-    private:
-      std::vector<std::size_t>               begin{0};
-      std::vector<unsigned int>              columns;
-      std::vector<std::array<Number, 6 * n>> blocks;
-    };
-
-    /** A level with n unknowns a node. */
-    template <typename Number, unsigned int n>
-    struct Level
-    {
-      Level(const BlockRows<n, n> &rows, const Layout &layout, double scale = 1.)
-        : matrix(rows, layout, scale),
-          smoother(matrix, invert_blocks<Number, n>(matrix.diagonal_blocks()), smoother_degree),
-          residual(layout)
-      {
-        if (n == 6)
-          for (auto *vector : {&solution, &correction, &right_hand_side})
-            vector->reinit(layout);
-      }
-
-      BlockOperator<Number, n>     matrix;
-      ChebyshevSmoother<Number, n> smoother;
-      Prolongation<Number, n>      prolongation; ///< from the level below
-      mutable VectorOf<Number>     residual;
-      mutable VectorOf<Number>     solution, correction, right_hand_side; ///< not on the finest
-    };
-
-    /**
-     * Levels are distributed like their matrices while they have enough nodes a rank, and on
-     * every rank from there on.
-     * Those below the finest are in double precision always: where a stiff part hangs on a
-     * soft one, rounding its coarse matrix would outweigh what holds it. The finest level
-     * may be rounded: the cycle is positive as long as the levels below are.
-     */
+    /** The finest level may be rounded: the cycle is positive as long as the levels below
+     * are, which are in double precision. */
     template <typename Number>
     class SmoothedAggregation : public ApproximateInverse<Number>
     {
@@ -106,114 +25,42 @@ namespace tetradapt::solve
                           const std::vector<NodeModes<3>> &modes,
                           const Layout                    &layout,
                           double                           scale)
-        : fine(rows, layout, scale)
+        : fine(rows, layout, smoother_degree, scale)
       {
-        auto coarsening = coarsen(
-          rows, modes, layout, fine_threshold, damping / fine.smoother.largest_eigenvalue(), 0.);
+        auto coarsening = coarsen(rows,
+                                  modes,
+                                  layout,
+                                  aggregate(rows, fine_threshold),
+                                  {damping / fine.smoother.largest_eigenvalue()},
+                                  0.);
         if (!coarsening)
           return;
         fine.prolongation = Prolongation<Number, 3>(coarsening->prolongation);
         for (auto &block : coarsening->coarse.rows.blocks)
           for (double &entry : block)
             entry *= scale;
-        build_coarse(std::move(coarsening->coarse));
+        const auto by_threshold
+          = [](const BlockRows<6, 6> &matrix) { return aggregate(matrix, coarse_threshold); };
+        below.emplace(std::move(coarsening->coarse),
+                      LevelRule{by_threshold, {damping}, {damping}, smoother_degree});
       }
 
       void
       vmult(VectorOf<Number> &destination, const VectorOf<Number> &source) const override
       {
-        cycle(fine, 0, destination, source);
+        fine.smoother.start(destination, source);
+        if (below)
+          {
+            fine.matrix.vmult(fine.residual, destination);
+            fine.residual.sadd(-1, 1, source);
+            below->correct(fine.prolongation, fine.residual, destination);
+          }
+        fine.smoother.step(destination, source);
       }
 
     private:
-      void
-      build_coarse(CoarseMatrix matrix)
-      {
-        while (matrix.n_nodes > max_coarse_rows)
-          {
-            coarse.push_back(std::make_unique<Level<double, 6>>(matrix.rows, matrix.layout));
-            Level<double, 6> &level      = *coarse.back();
-            auto              coarsening = coarsen(matrix.rows,
-                                      matrix.modes,
-                                      matrix.layout,
-                                      coarse_threshold,
-                                      damping / level.smoother.largest_eigenvalue(),
-                                      2.);
-            if (!coarsening)
-              return; // nothing gained by going on: the smoother has to do
-            level.prolongation = Prolongation<double, 6>(coarsening->prolongation);
-            matrix             = std::move(coarsening->coarse);
-          }
-        bottom = std::make_unique<DenseCholesky>(matrix.rows);
-        bottom_values.reinit(matrix.layout);
-      }
-
-      /** x = about A^-1 b on a level; @p next is the one below in coarse. */
-      template <typename LevelNumber, unsigned int n>
-      void
-      cycle(const Level<LevelNumber, n> &level,
-            std::size_t                  next,
-            VectorOf<LevelNumber>       &x,
-            const VectorOf<LevelNumber> &b) const
-      {
-        level.smoother.start(x, b);
-        if (next < coarse.size() || bottom != nullptr)
-          {
-            level.matrix.vmult(level.residual, x);
-            level.residual.sadd(-1, 1, b);
-            VectorOf<double> &forces
-              = next < coarse.size() ? coarse[next]->right_hand_side : bottom_values;
-            forces = 0.;
-            level.prolongation.add_transposed(forces.begin(), level.residual.begin());
-            add_up(forces, *level.matrix.vector_layout());
-            const VectorOf<double> &correction = solve_below(next);
-            correction.update_ghost_values();
-            level.prolongation.add(x.begin(), correction.begin());
-            correction.zero_out_ghost_values();
-          }
-        level.smoother.step(x, b);
-      }
-
-      /** Sums forces to which the ranks of the finer level @p from have added their parts. */
-      void
-      add_up(VectorOf<double> &forces, const dealii::Utilities::MPI::Partitioner &from) const
-      {
-        if (forces.get_partitioner()->n_mpi_processes() > 1)
-          forces.compress(dealii::VectorOperation::add);
-        else if (from.n_mpi_processes() > 1)
-          MPI_Allreduce(MPI_IN_PLACE,
-                        forces.begin(),
-                        static_cast<int>(forces.size()),
-                        MPI_DOUBLE,
-                        MPI_SUM,
-                        from.get_mpi_communicator());
-      }
-
-      /** The correction for the right-hand side that is stored with level @p i of coarse.
-       * Two cycles from the second on, where they cost little (a W-cycle). */
-      const VectorOf<double> &
-      solve_below(std::size_t i) const
-      {
-        if (i == coarse.size())
-          {
-            bottom->solve(bottom_values.begin());
-            return bottom_values;
-          }
-        const Level<double, 6> &level = *coarse[i];
-        cycle(level, i + 1, level.solution, level.right_hand_side);
-        if (i == 0)
-          return level.solution;
-        level.matrix.vmult(level.residual, level.solution);
-        level.right_hand_side -= level.residual;
-        cycle(level, i + 1, level.correction, level.right_hand_side);
-        level.solution += level.correction;
-        return level.solution;
-      }
-
-      Level<Number, 3>                               fine;
-      std::vector<std::unique_ptr<Level<double, 6>>> coarse;
-      std::unique_ptr<DenseCholesky>                 bottom;
-      mutable VectorOf<double>                       bottom_values;
+      Level<Number, 3>               fine;
+      std::optional<AggregateLevels> below;
     };
   } // namespace
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/solve/preconditioners.h"
-#include "tetradapt/solve/rigid_modes.h"
 #include "tetradapt/solve/trilinos_types.h"
+
+#include "rigid_modes.h"
 
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Map.h>

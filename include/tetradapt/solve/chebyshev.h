@@ -4,6 +4,7 @@
 
 #include "tetradapt/mechanics/linear_operator.h"
 #include "tetradapt/solve/block_jacobi.h"
+#include "tetradapt/solve/cluster_jacobi.h"
 
 namespace tetradapt::solve
 {
@@ -24,11 +25,14 @@ namespace tetradapt::solve
   public:
     using Block = std::array<Number, n * n>;
 
-    /** Collective. Keeps a reference to @p matrix. @param inverses as invert_blocks()
-     * makes them; zero rows keep an unknown at zero. */
+    /** Collective. Keeps references to @p matrix and to @p clusters.
+     * @param inverses as invert_blocks() makes them; zero rows keep an unknown at zero.
+     * @param clusters if not null, are larger diagonal blocks, which D has in place of the
+     *        @p inverses of their nodes. */
     ChebyshevSmoother(const mechanics::LinearOperator<Number> &matrix,
                       const std::vector<Block>                &inverses,
-                      unsigned int                             degree);
+                      unsigned int                             degree,
+                      const ClusterJacobi<Number>             *clusters = nullptr);
 
     /** One sweep from x = 0. degree - 1 products with the matrix. Collective. */
     void
@@ -48,12 +52,16 @@ namespace tetradapt::solve
   private:
     double
     estimate_lambda() const;
+    /** BlockJacobi's step, and then that of the clusters. */
+    void
+    step_of_all(JacobiStep step, const Number *from, VectorOf<Number> &x) const;
     /** The steps from @p begin on; @p first is the residual before the last one. */
     void
     iterate(VectorOf<Number> &x, const VectorOf<Number> &first, unsigned int begin) const;
 
     const mechanics::LinearOperator<Number> &matrix;
     BlockJacobi<Number, n>                   inverses;
+    const ClusterJacobi<Number>             *clusters;
     unsigned int                             degree;
     double                                   lambda = 0.;
     mutable VectorOf<Number>                 residual, direction, product;

@@ -25,6 +25,16 @@ namespace tetradapt::solve
          unsigned int                                  n_aggregates,
          double                                        omega);
 
+  /** (1 - omega D^-1 A) P on the rows of @p matrix; @p prolongation has those of ghosts
+   * also. */
+  template <unsigned int n>
+  BlockRows<n, 6>
+  smooth_further(const BlockRows<n, n>                        &matrix,
+                 const std::vector<std::array<double, n * n>> &inverse_diagonal,
+                 const BlockRows<n, 6>                        &prolongation,
+                 unsigned int                                  n_aggregates,
+                 double                                        omega);
+
   /** P^T A P for the rows of @p matrix only; @p prolongation has those of ghosts also.
    * All @p n_aggregates rows. */
   template <unsigned int n>

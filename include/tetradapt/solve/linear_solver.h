@@ -127,6 +127,7 @@ namespace tetradapt::solve
     std::string                                             description;
     std::unique_ptr<mechanics::LinearSystem>                assembled;
     std::unique_ptr<mechanics::MatrixFreeStiffness<double>> matrix_free;
+    FlatNodes                                               flat; ///< of degree 2
     /** Made again in double precision where single does not do. */
     mutable std::unique_ptr<fem::Space>     coarse_space; ///< of p-multigrid
     mutable std::unique_ptr<Preconditioner> preconditioner;

@@ -4,6 +4,7 @@
 
 #include "tetradapt/mechanics/matrix_free_stiffness.h"
 #include "tetradapt/mechanics/stiffness.h"
+#include "tetradapt/solve/flat_nodes.h"
 
 #include <memory>
 
@@ -54,9 +55,15 @@ namespace tetradapt::solve
                     const fem::Space             &space,
                     const fem::FixedUnknowns     &fixed);
 
+  /** What makes up for flat and long cells: source/solve/flat_correction.h. */
+  template <typename Number>
+  class FlatCorrection;
+
   /**
    * One V-cycle of p-multigrid for a matrix of degree 2: Chebyshev smoothing with
-   * 3x3 block Jacobi there, and degree 1 solved by one cycle of @p coarse_solver.
+   * 3x3 block Jacobi there, and degree 1 solved by one cycle of @p coarse_solver. Where cells
+   * are flat or long, the smoother has larger blocks and FlatCorrection corrects also.
+   * @param flat is null where they are not.
    * @tparam Number is float or double. Keeps references to both spaces.
    */
   template <typename Number>
@@ -65,7 +72,8 @@ namespace tetradapt::solve
                    const fem::Space                                       &fine_space,
                    const fem::Space                                       &coarse_space,
                    const fem::FixedUnknowns                               &fixed,
-                   std::unique_ptr<ApproximateInverse<Number>>             coarse_solver);
+                   std::unique_ptr<ApproximateInverse<Number>>             coarse_solver,
+                   std::unique_ptr<FlatCorrection<Number>>                 flat);
 } // namespace tetradapt::solve
 
 #endif
