@@ -4,6 +4,7 @@
 #include "tetradapt/compare/field_evaluator.h"
 #include "tetradapt/compare/parallel.h"
 #include "tetradapt/compare/tet_quadrature.h"
+#include "tetradapt/core/failure.h"
 #include "tetradapt/mechanics/energy_density.h"
 
 #include <algorithm>
@@ -57,7 +58,7 @@ namespace tetradapt::compare
     result.cell_energy.assign(n_cells, 0.);
     std::vector<double> sums(7, 0.);
 
-    together(communicator, [&] {
+    core::together(communicator, [&] {
       const std::vector<bool> left_out = excluded.cells(mesh);
       const ExactSolution     exact(exact_solution);
       const FieldEvaluator    evaluator(u_h);

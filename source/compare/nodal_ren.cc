@@ -3,6 +3,7 @@
 #include "tetradapt/compare/exact_solution.h"
 #include "tetradapt/compare/field_evaluator.h"
 #include "tetradapt/compare/parallel.h"
+#include "tetradapt/core/failure.h"
 
 #include <algorithm>
 #include <cmath>
@@ -123,7 +124,7 @@ namespace tetradapt::compare
   {
     const Slice         slice = own_slice(u_h.n_nodes(), communicator);
     std::vector<double> distances(2 * std::size_t(u_h.n_nodes()), 0.);
-    together(communicator, [&] {
+    core::together(communicator, [&] {
       const ExactSolution exact(exact_solution);
       for (unsigned int node = slice.begin; node < slice.end; ++node)
         {
