@@ -6,6 +6,7 @@
 #include "tetradapt/compare/parallel.h"
 #include "tetradapt/compare/difference.h"
 #include "tetradapt/core/exceptions.h"
+#include "tetradapt/core/failure.h"
 #include "tetradapt/estimate/recovery/recovery.h"
 
 
@@ -95,7 +96,7 @@ main(int argc, char *argv[])
 
   try
     {
-      together(MPI_COMM_WORLD, [&] {
+      core::together(MPI_COMM_WORLD, [&] {
         if (this_rank(MPI_COMM_WORLD) + 1 == n_ranks(MPI_COMM_WORLD))
           throw core::InputError("only the last rank failed");
       });

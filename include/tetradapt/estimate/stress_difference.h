@@ -5,6 +5,7 @@
 #include "tetradapt/compare/field_evaluator.h"
 #include "tetradapt/compare/parallel.h"
 #include "tetradapt/compare/tet_quadrature.h"
+#include "tetradapt/core/failure.h"
 #include "tetradapt/estimate/cell_stress.h"
 
 #include <algorithm>
@@ -52,7 +53,7 @@ namespace tetradapt::estimate
                     const MPI_Comm                communicator)
   {
     std::vector<double> result(mesh.n_cells(), 0.);
-    compare::together(communicator, [&] {
+    core::together(communicator, [&] {
       const compare::Slice slice = compare::own_slice(mesh.n_cells(), communicator);
       for (unsigned int cell = slice.begin; cell < slice.end; ++cell)
         result[cell] = stress_difference_in(mesh, stress, better, rule, cell);
