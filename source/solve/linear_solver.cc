@@ -26,11 +26,13 @@ namespace tetradapt::solve
     /** Least energy of a solution by that of what was added to the first iterate. */
     constexpr double least_energy = 1e-12;
 
-    /** The iteration from which a prediction of the remaining ones counts. Both attempts, in
-     * single and in double precision, end within 100 iterations where they get nowhere. */
+    /** Where a factorisation can take over: the iteration from which a prediction of the
+     * remaining ones counts. Where they get nowhere, both attempts, in single and in double
+     * precision, end within about 100. So early a prediction may be wrong, as where bending
+     * is found late: that costs a factorisation, but no solution. */
     constexpr unsigned int prediction_from = 40;
 
-    /** The largest number of unknowns for which a factorisation takes over. */
+    /** The largest number of unknowns for which it does. */
     constexpr unsigned long most_factorised_later = 150000;
 
     /** One cycle of algebraic multigrid for a matrix of degree 1 times @p scale. */
@@ -235,7 +237,7 @@ namespace tetradapt::solve
     limits.residual       = tolerance * norm;
     limits.error          = stop.algebraic_error;
     limits.relative_error = stop.relative_error;
-    limits.give_up_from   = prediction_from;
+    limits.give_up_from   = can_factorise_instead() ? prediction_from : 0;
     LinearResult result{0, 0, 0., description};
     double       gained = 0.;
     // The residual's norm is ruled by stiff and by flat elements. So it may be small

@@ -96,34 +96,22 @@ namespace
     check("slender bar", solve_scene(scene, slender, 1).energy, 1., 1., 1e-6);
   }
 
-  /** A plate of quadratic cells 125 times longer than thick, held at its rim: conjugate
-   * gradients are given up in time, and the factorisation takes over. */
+  /** A plate of quadratic cells 125 times longer than thick, held at its rim. More such bodies:
+   * tests/solve/flat_cells.cc. */
   void
   flat_cells()
   {
     scene::Scene scene;
-    scene.materials             = {material("all", 1000., 0.3)};
-    scene.supports              = {support("rim", "x < 1e-9 || y > 1-1e-9")};
-    scene.loads                 = {load("top", LoadType::pressure, "z > 0.002-1e-9", {{"1e-6"}})};
-    scene.solver.direct_limit   = 0;
-    const auto            plate = box(Point<3>(1, 1, 0.002), {{4, 4, 1}}, 0.);
-    solve::StaticSolution taken_over = solve_scene(scene, plate, 2);
-    std::cout << "flat cells: " << taken_over.solver << '\n';
-    scene.solver.type   = SolverType::direct;
-    const double energy = solve_scene(scene, plate, 2).energy;
-    check("  its energy", taken_over.energy, energy, energy, 1e-6);
-    scene.solver.type           = SolverType::cg;
-    scene.solver.max_iterations = 250; // single precision is given up before
-    try
-      {
-        solve_scene(scene, plate, 2);
-        std::cout << "  SOLVED\n";
-      }
-    catch (const core::NumericalError &error)
-      {
-        const std::string text = error.what();
-        std::cout << "  " << text.substr(0, text.find(" the residual")) << "...\n";
-      }
+    scene.materials           = {material("all", 1000., 0.3)};
+    scene.supports            = {support("rim", "x < 1e-9 || y > 1-1e-9")};
+    scene.loads               = {load("top", LoadType::pressure, "z > 0.002-1e-9", {{"1e-6"}})};
+    scene.solver.direct_limit = 0;
+    const auto plate          = box(Point<3>(1, 1, 0.002), {{4, 4, 1}}, 0.);
+    const auto solution       = solve_scene(scene, plate, 2);
+    scene.solver.type         = SolverType::direct;
+    const double energy       = solve_scene(scene, plate, 2).energy;
+    std::cout << "flat cells: " << solution.solver << '\n';
+    check("  its energy", solution.energy, energy, energy, 1e-6);
   }
 } // namespace
 
