@@ -88,53 +88,67 @@ namespace tetradapt::solve
             }
     }
 
-    /** Counts at each node, for each axis, the cells' sides there that are normal to it
-     * and on which neither loads nor supports act. Collective. */
-    Vector
-    count_free_sides(const HexahedralForest &forest, const HexahedralSpace &space)
+    /** Counts at each node the cells' sides that make a stress vanish there, those on which
+     * neither loads nor supports act. */
+    struct FreeSides
     {
-      const HexahedralGrid &grid = forest.grid();
-      const unsigned int    n    = space.degree + 1;
-      Vector                free(space.layout);
-      for (unsigned int c = 0; c < forest.cells().size(); ++c)
-        for (unsigned int side = 0; side < 6; ++side)
-          {
-            const HexahedralCell &cell = forest.cells()[c];
-            if ((cell.outer >> side & 1) == 0
-                || !grid.patches[grid.sides[cell.brick][side]].selections.empty())
-              continue;
-            const unsigned int stride[3] = {1, n, n * n}, axis = side / 2;
-            for (unsigned int i = 0; i < n * n * n; ++i)
-              if (i / stride[axis] % n == (side % 2 == 1 ? n - 1 : 0)
-                  && space.nodes(c)[i] < space.n_local)
-                free.local_element(3 * space.nodes(c)[i] + axis) += 1.;
-          }
-      free.compress(dealii::VectorOperation::add);
-      return free;
-    }
+      FreeSides(const HexahedralSpace &space, const Vector &like) : normal(like), shear(like)
+      {
+        normal                     = 0.;
+        shear                      = 0.;
+        const HexahedralGrid &grid = space.forest().grid();
+        const unsigned int    n    = space.degree() + 1;
+        HexahedralSpace::Dofs dofs;
+        for (unsigned int c = 0; c < space.forest().cells().size(); ++c)
+          for (unsigned int side = 0; side < 6; ++side)
+            {
+              const unsigned int patch = space.forest().cells()[c].patches[side];
+              if (patch == HexahedralGrid::none || !grid.patches[patch].selections.empty())
+                continue;
+              space.get_dofs(c, dofs);
+              const unsigned int stride[3] = {1, n, n * n}, axis = side / 2;
+              for (unsigned int i = 0; i < n * n * n; ++i)
+                if (i / stride[axis] % n == (side % 2 == 1 ? n - 1 : 0)
+                    && !space.hanging_nodes().is_constrained(dofs[3 * i]))
+                  {
+                    normal(dofs[3 * i + axis]) += 1.;
+                    shear(dofs[3 * i + axis]) += 1.;
+                    shear(dofs[3 * i + (axis + 2) % 3]) += 1.;
+                  }
+            }
+        normal.compress(dealii::VectorOperation::add);
+        shear.compress(dealii::VectorOperation::add);
+      }
+
+      Vector normal; ///< entry c of a node: of component cc
+      Vector shear;  ///< of component c, c + 1
+    };
 
     /** Means of stresses at the nodes, of the cells of one region. On free sides the
      * stress on the side is zero. */
     class MeanStress
     {
     public:
-      MeanStress(const HexahedralSpace &space, const Vector &free_sides)
-        : space(space), free_sides(free_sides), normal(space.layout), shear(space.layout),
-          count(space.layout)
+      MeanStress(const Constraints &hanging_nodes, const FreeSides &free_sides)
+        : hanging_nodes(hanging_nodes), free_sides(free_sides), normal(free_sides.normal),
+          shear(normal), count(normal)
       {
+        for (Vector *vector : {&normal, &shear, &count})
+          *vector = 0.;
       }
 
+      /** @param dofs of a node. */
       void
-      add(const unsigned int node, const Stress &stress)
+      add(const dealii::types::global_dof_index *dofs, const Stress &stress)
       {
-        if (node >= space.n_local)
+        if (hanging_nodes.is_constrained(dofs[0]))
           return;
         for (unsigned int c = 0; c < 3; ++c)
           {
-            normal.local_element(3 * node + c) += stress[c][c];
-            shear.local_element(3 * node + c) += stress[c][(c + 1) % 3];
+            normal(dofs[c]) += stress[c][c];
+            shear(dofs[c]) += stress[c][(c + 1) % 3];
+            count(dofs[c]) += 1.;
           }
-        count.local_element(3 * node) += 1.;
       }
 
       void
@@ -142,90 +156,85 @@ namespace tetradapt::solve
       {
         for (Vector *vector : {&normal, &shear, &count})
           vector->compress(dealii::VectorOperation::add);
-        for (unsigned int node = 0; node < space.n_owned; ++node)
-          if (count.local_element(3 * node) > 1.)
-            for (unsigned int c = 0; c < 3; ++c)
-              {
-                normal.local_element(3 * node + c) /= count.local_element(3 * node);
-                shear.local_element(3 * node + c) /= count.local_element(3 * node);
-              }
-        for (unsigned int node = 0; node < space.n_owned; ++node)
-          for (unsigned int c = 0; c < 3; ++c)
-            if (free_sides.local_element(3 * node + c) != 0.)
-              {
-                normal.local_element(3 * node + c)          = 0.;
-                shear.local_element(3 * node + c)           = 0.;
-                shear.local_element(3 * node + (c + 2) % 3) = 0.;
-              }
-        normal.update_ghost_values();
-        shear.update_ghost_values();
+        for (unsigned int i = 0; i < count.locally_owned_size(); ++i)
+          {
+            const double share = 1. / std::max(1., count.local_element(i));
+            normal.local_element(i) *= free_sides.normal.local_element(i) != 0. ? 0. : share;
+            shear.local_element(i) *= free_sides.shear.local_element(i) != 0. ? 0. : share;
+          }
+        for (Vector *vector : {&normal, &shear})
+          {
+            hanging_nodes.distribute(*vector);
+            vector->update_ghost_values();
+          }
       }
 
       Stress
-      at(const unsigned int node) const
+      at(const dealii::types::global_dof_index *dofs) const
       {
-        const Tensor<1, 3> on_diagonal = space.value(normal, node), off = space.value(shear, node);
-        Stress             result;
+        Stress result;
         for (unsigned int c = 0; c < 3; ++c)
           {
-            result[c][c]           = on_diagonal[c];
-            result[c][(c + 1) % 3] = off[c];
+            result[c][c]           = normal(dofs[c]);
+            result[c][(c + 1) % 3] = shear(dofs[c]);
           }
         return result;
       }
 
     private:
-      const HexahedralSpace &space;
-      const Vector          &free_sides;
-      Vector                 normal, shear, count;
+      const Constraints &hanging_nodes;
+      const FreeSides   &free_sides;
+      Vector             normal, shear, count;
     };
   } // namespace
 
   std::vector<double>
-  hexahedral_indicators(const HexahedralForest       &forest,
-                        const HexahedralSpace        &space,
+  hexahedral_indicators(const HexahedralSpace        &space,
                         const mechanics::MaterialMap &materials,
                         const Vector                 &displacement)
   {
-    const HexahedralGrid     &grid = forest.grid();
-    const Edge                edge(space.degree);
+    const auto               &cells   = space.forest().cells();
+    const unsigned int        n_nodes = space.nodes_per_cell();
+    const Edge                edge(space.degree());
     const unsigned int        n = edge.n;
-    std::vector<double>       result(forest.cells().size(), 0.);
-    std::vector<Tensor<1, 3>> u(space.nodes_per_cell);
-    std::vector<Stress>       stresses(space.nodes_per_cell);
+    std::vector<double>       result(cells.size(), 0.);
+    HexahedralSpace::Dofs     dofs;
+    std::vector<Tensor<1, 3>> u(n_nodes);
+    std::vector<Stress>       stresses(n_nodes);
     const auto                compute = [&](const unsigned int c) {
-      for (unsigned int i = 0; i < space.nodes_per_cell; ++i)
-        u[i] = space.value(displacement, space.nodes(c)[i]);
-      const HexahedralCell &cell = forest.cells()[c];
-      nodal_stresses(edge, cell, grid.regions[cell.brick], materials, u, stresses);
+      space.get_dofs(c, dofs);
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        u[i / 3][i % 3] = displacement(dofs[i]);
+      nodal_stresses(edge, cells[c], cells[c].region, materials, u, stresses);
     };
-    const Vector free_sides = count_free_sides(forest, space);
+    const FreeSides free_sides(space, displacement);
     displacement.update_ghost_values();
-    std::set<int> regions;
+    const HexahedralGrid &grid = space.forest().grid();
+    std::set<int>         regions;
     for (unsigned int brick = 0; brick < grid.n_bricks(); ++brick)
       if (grid.filled[brick])
         regions.insert(grid.regions[brick]);
     for (const int region : regions)
       {
         const auto &law = materials.law(region);
-        MeanStress  mean(space, free_sides);
+        MeanStress  mean(space.hanging_nodes(), free_sides);
         for (unsigned int c = 0; c < result.size(); ++c)
-          if (grid.regions[forest.cells()[c].brick] == region)
+          if (cells[c].region == region)
             {
               compute(c);
-              for (unsigned int i = 0; i < space.nodes_per_cell; ++i)
-                mean.add(space.nodes(c)[i], stresses[i]);
+              for (unsigned int i = 0; i < n_nodes; ++i)
+                mean.add(&dofs[3 * i], stresses[i]);
             }
         mean.finish();
         for (unsigned int c = 0; c < result.size(); ++c)
-          if (grid.regions[forest.cells()[c].brick] == region)
+          if (cells[c].region == region)
             {
               compute(c);
-              for (unsigned int i = 0; i < space.nodes_per_cell; ++i)
-                stresses[i] -= mean.at(space.nodes(c)[i]);
+              for (unsigned int i = 0; i < n_nodes; ++i)
+                stresses[i] -= mean.at(&dofs[3 * i]);
               to_gauss_points(edge, stresses);
-              const Tensor<1, 3> &size = forest.cells()[c].size;
-              for (unsigned int q = 0; q < space.nodes_per_cell; ++q)
+              const Tensor<1, 3> &size = cells[c].size;
+              for (unsigned int q = 0; q < n_nodes; ++q)
                 result[c] += size[0] * size[1] * size[2] * edge.gauss.weight(q % n)
                              * edge.gauss.weight(q / n % n) * edge.gauss.weight(q / n / n)
                              * law.complementary_density(stresses[q]);

@@ -5,7 +5,10 @@
 #include "tetradapt/mechanics/volume_density.h"
 #include "tetradapt/mesh/hexahedral_field.h"
 
+#include <deal.II/base/function.h>
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/mapping_q1.h>
+#include <deal.II/numerics/vector_tools.h>
 
 #include <algorithm>
 
@@ -33,24 +36,46 @@ namespace tetradapt::solve
       std::vector<std::array<double, 4>> values, derivatives;
     };
 
-    /** Calls function(cell, side) for the own cells' sides that @p name selects. */
-    template <typename Function>
-    void
-    for_selected_sides(const HexahedralForest &forest,
-                       const std::string      &name,
-                       const Function         &function)
+    /** Whether each patch of a grid is selected by @p name. */
+    std::vector<bool>
+    selected_patches(const HexahedralGrid &grid, const std::string &name)
     {
-      const HexahedralGrid &grid = forest.grid();
-      std::vector<bool>     selected;
+      std::vector<bool> selected;
       for (const auto &patch : grid.patches)
         selected.push_back(std::find(patch.selections.begin(), patch.selections.end(), name)
                            != patch.selections.end());
-      for (unsigned int c = 0; c < forest.cells().size(); ++c)
-        for (unsigned int side = 0; side < 6; ++side)
-          if ((forest.cells()[c].outer >> side & 1) != 0
-              && selected[grid.sides[forest.cells()[c].brick][side]])
-            function(c, side);
+      return selected;
     }
+
+    /** Forces on the nodes of one cell after another. */
+    class CellForces
+    {
+    public:
+      CellForces(const HexahedralSpace &space, Vector &forces)
+        : space(space), forces(forces), values(3 * space.nodes_per_cell())
+      {
+      }
+      void
+      add(const unsigned int node, const Tensor<1, 3> &force)
+      {
+        for (unsigned int c = 0; c < 3; ++c)
+          values[3 * node + c] += force[c];
+      }
+      /** Adds what was collected to the forces, as that on own cell @p c. */
+      void
+      finish(const unsigned int c)
+      {
+        space.get_dofs(c, dofs);
+        space.hanging_nodes().distribute_local_to_global(values, dofs, forces);
+        values = 0.;
+      }
+
+    private:
+      const HexahedralSpace &space;
+      Vector                &forces;
+      dealii::Vector<double> values;
+      HexahedralSpace::Dofs  dofs;
+    };
 
     /** Calls function(place of the node in the cell, first and second position) for the
      * nodes on a side. */
@@ -86,18 +111,17 @@ namespace tetradapt::solve
     add_side_load(const scene::LoadParameters   &load,
                   const unsigned int             number,
                   const mechanics::SurfaceLoads &loads,
-                  const HexahedralForest        &forest,
                   const HexahedralSpace         &space,
                   Vector                        &forces)
     {
-      const Line                       line(space.degree);
+      const Line line(space.degree());
+      const auto selected = selected_patches(space.forest().grid(), "Loads/" + load.name);
       mechanics::SurfaceLoads::Samples samples;
-      for_selected_sides(forest, "Loads/" + load.name, [&](unsigned int c, unsigned int side) {
-        const HexahedralCell     &cell = forest.cells()[c];
-        const unsigned int        axis = side / 2, first = (axis + 1) % 3, second = (axis + 2) % 3;
-        const double              area = cell.size[first] * cell.size[second];
-        std::vector<Tensor<1, 3>> at_nodes(space.nodes_per_cell);
-        Tensor<1, 3>              normal;
+      CellForces                       cell_forces(space, forces);
+      const auto add_side = [&](const HexahedralCell &cell, const unsigned int side) {
+        const unsigned int axis = side / 2, first = (axis + 1) % 3, second = (axis + 2) % 3;
+        const double       area = cell.size[first] * cell.size[second];
+        Tensor<1, 3>       normal;
         normal[axis]        = side % 2 == 1 ? 1. : -1.;
         const auto place_of = [&](double s, double t) {
           Point<3> unit;
@@ -107,9 +131,9 @@ namespace tetradapt::solve
           return cell.at(unit);
         };
         const auto add = [&](double s, double t, double weight, const Tensor<1, 3> &value) {
-          const auto functions = square_functions(space.degree, s, t);
+          const auto functions = square_functions(space.degree(), s, t);
           for_side_nodes(line.n, side, [&](unsigned int place, unsigned int i, unsigned int j) {
-            at_nodes[place] += area * weight * functions[j * line.n + i] * value;
+            cell_forces.add(place, area * weight * functions[j * line.n + i] * value);
           });
         };
         if (loads.is_constant(number))
@@ -136,10 +160,17 @@ namespace tetradapt::solve
                     0.5 * point.weight,
                     point.value);
             }
-        for_side_nodes(line.n, side, [&](unsigned int place, unsigned int, unsigned int) {
-          space.add(forces, space.nodes(c)[place], at_nodes[place]);
-        });
-      });
+      };
+      for (unsigned int c = 0; c < space.forest().cells().size(); ++c)
+        {
+          const HexahedralCell &cell = space.forest().cells()[c];
+          for (unsigned int side = 0; side < 6; ++side)
+            if (cell.patches[side] != HexahedralGrid::none && selected[cell.patches[side]])
+              {
+                add_side(cell, side);
+                cell_forces.finish(c);
+              }
+        }
     }
 
     /** The six tetrahedra around the diagonal of a unit cube. */
@@ -177,7 +208,7 @@ namespace tetradapt::solve
       for (unsigned int c = 0; c < forest.cells().size(); ++c)
         {
           const HexahedralCell &cell   = forest.cells()[c];
-          const int             region = forest.grid().regions[cell.brick];
+          const int             region = cell.region;
           if (!density.acts_in(region))
             continue;
           const double volume = cell.size[0] * cell.size[1] * cell.size[2];
@@ -220,35 +251,30 @@ namespace tetradapt::solve
     template <typename Function>
     void
     add_volume_load(const mechanics::VolumeDensity &density,
-                    const HexahedralForest         &forest,
                     const HexahedralSpace          &space,
                     const Function                 &act,
                     Vector                         &forces)
     {
-      const Line                line(space.degree);
-      std::vector<Tensor<1, 3>> at_nodes(space.nodes_per_cell);
-      unsigned int              current = 0;
-      const auto                finish  = [&](const unsigned int c) {
-        for (unsigned int i = 0; i < space.nodes_per_cell; ++i)
-          space.add(forces, space.nodes(c)[i], at_nodes[i]);
-        std::fill(at_nodes.begin(), at_nodes.end(), Tensor<1, 3>());
-      };
+      const auto  &cells = space.forest().cells();
+      const Line   line(space.degree());
+      CellForces   cell_forces(space, forces);
+      unsigned int current = 0;
       sample_cells(
         density,
-        forest,
+        space.forest(),
         line,
         [&](unsigned int c, const Point<3> &unit, double weight, const Tensor<1, 3> &value) {
           if (c != current)
-            finish(current);
+            cell_forces.finish(current);
           current                               = c;
-          const HexahedralCell            &cell = forest.cells()[c];
+          const HexahedralCell            &cell = cells[c];
           Tensor<1, 3>                     force;
           mechanics::SymmetricTensor<2, 3> stress;
-          act(value, forest.grid().regions[cell.brick], force, stress);
+          act(value, cell.region, force, stress);
           std::array<double, 4> values[3], derivatives[3];
           for (unsigned int d = 0; d < 3; ++d)
-            mesh::lagrange(space.degree, unit[d], values[d].data(), derivatives[d].data());
-          for (unsigned int i = 0; i < space.nodes_per_cell; ++i)
+            mesh::lagrange(space.degree(), unit[d], values[d].data(), derivatives[d].data());
+          for (unsigned int i = 0; i < space.nodes_per_cell(); ++i)
             {
               const unsigned int k[3] = {i % line.n, i / line.n % line.n, i / line.n / line.n};
               double             v[3];
@@ -257,103 +283,69 @@ namespace tetradapt::solve
               Tensor<1, 3> gradient;
               for (unsigned int d = 0; d < 3; ++d)
                 gradient[d] = derivatives[d][k[d]] / cell.size[d] * v[(d + 1) % 3] * v[(d + 2) % 3];
-              at_nodes[i] += weight * (v[0] * v[1] * v[2] * force + stress * gradient);
+              cell_forces.add(i, weight * (v[0] * v[1] * v[2] * force + stress * gradient));
             }
         });
-      if (!forest.cells().empty())
-        finish(current);
+      if (!cells.empty())
+        cell_forces.finish(current);
     }
+
+    /** A prescribed displacement for deal.II. */
+    class Prescribed : public dealii::Function<3>
+    {
+    public:
+      explicit Prescribed(const scene::SupportParameters &support)
+        : Function<3>(3),
+          displacement(support.displacement, "Supports/" + support.name + "/Displacement")
+      {
+      }
+      void
+      vector_value(const Point<3> &point, dealii::Vector<double> &values) const override
+      {
+        const Tensor<1, 3> value = displacement(point);
+        for (unsigned int c = 0; c < 3; ++c)
+          values[c] = value[c];
+      }
+
+    private:
+      core::VectorExpression displacement;
+    };
   } // namespace
 
-  Vector
-  node_positions(const HexahedralForest &forest, const HexahedralSpace &space)
+  Constraints
+  make_constraints(const std::vector<scene::SupportParameters> &supports,
+                   const HexahedralSpace                       &space)
   {
-    Vector             positions(space.layout);
-    const auto         along = mesh::hexahedral_nodes(space.degree);
-    const unsigned int n     = along.size();
-    for (unsigned int c = 0; c < forest.cells().size(); ++c)
-      for (unsigned int i = 0; i < space.nodes_per_cell; ++i)
-        {
-          const unsigned int node = space.nodes(c)[i];
-          if (node >= space.n_owned)
-            continue;
-          const Point<3> x
-            = forest.cells()[c].at({along[i % n], along[i / n % n], along[i / n / n]});
-          for (unsigned int d = 0; d < 3; ++d)
-            positions.local_element(3 * node + d) = x[d];
-        }
-    positions.update_ghost_values();
-    return positions;
+    Constraints constraints = space.make_constraints();
+    // What is constrained already stays so.
+    for (auto support = supports.rbegin(); support != supports.rend(); ++support)
+      {
+        const Prescribed displacement(*support);
+        const auto selected = selected_patches(space.forest().grid(), "Supports/" + support->name);
+        std::map<dealii::types::boundary_id, const dealii::Function<3> *> functions;
+        for (unsigned int patch = 0; patch < selected.size(); ++patch)
+          if (selected[patch])
+            functions[patch + 1] = &displacement;
+        dealii::ComponentMask components(3, false);
+        for (unsigned int c = 0; c < 3; ++c)
+          components.set(c, support->components[c]);
+        if (!functions.empty() && components.n_selected_components(3) > 0)
+          dealii::VectorTools::interpolate_boundary_values(
+            dealii::MappingQ1<3>(), space.dof_handler(), functions, constraints, components);
+      }
+    constraints.close();
+    return constraints;
   }
 
   void
-  HexahedralSupports::set_zero(Vector &vector) const
-  {
-    const unsigned int n_owned = vector.locally_owned_size() / 3;
-    for (unsigned int node = 0; node < n_owned; ++node)
-      for (unsigned int c = 0; fixed[node] != 0 && c < 3; ++c)
-        if ((fixed[node] >> c & 1) != 0)
-          vector.local_element(3 * node + c) = 0.;
-  }
-
-  HexahedralSupports
-  prescribe(const std::vector<scene::SupportParameters> &supports,
-            const HexahedralForest                      &forest,
-            const HexahedralSpace                       &space,
-            const Vector                                &positions)
-  {
-    HexahedralSupports result;
-    result.fixed.assign(space.n_local, 0);
-    result.values.reinit(space.layout);
-    for (const auto &support : supports)
-      {
-        const core::VectorExpression displacement(support.displacement,
-                                                  "Supports/" + support.name + "/Displacement");
-        // A node may be known here and owned elsewhere: its owner is told by a sum.
-        Vector touched(space.layout);
-        for_selected_sides(forest,
-                           "Supports/" + support.name,
-                           [&](unsigned int c, unsigned int side) {
-                             for_side_nodes(space.degree + 1,
-                                            side,
-                                            [&](unsigned int place, unsigned int, unsigned int) {
-                                              space.expand(space.nodes(c)[place],
-                                                           [&](unsigned int node, double weight) {
-                                                             if (weight != 0.)
-                                                               touched.local_element(3 * node) = 1.;
-                                                           });
-                                            });
-                           });
-        touched.compress(dealii::VectorOperation::add);
-        touched.update_ghost_values();
-        for (unsigned int node = 0; node < space.n_local; ++node)
-          if (touched.local_element(3 * node) != 0.)
-            {
-              Point<3> x;
-              for (unsigned int d = 0; d < 3; ++d)
-                x[d] = positions.local_element(3 * node + d);
-              const Tensor<1, 3> value = displacement(x);
-              for (unsigned int c = 0; c < 3; ++c)
-                if (support.components[c])
-                  {
-                    result.fixed[node] |= 1u << c;
-                    result.values.local_element(3 * node + c) = value[c];
-                  }
-            }
-      }
-    result.values.zero_out_ghost_values();
-    return result;
-  }
-
-  Vector
   nodal_forces(const scene::Scene           &scene,
                const mesh::TetMesh          &mesh,
                const mechanics::MaterialMap &materials,
-               const HexahedralForest       &forest,
-               const HexahedralSpace        &space)
+               const HexahedralSpace        &space,
+               Vector                       &forces)
   {
     using mechanics::SymmetricTensor;
-    Vector                        forces(space.layout);
+    forces = 0.;
     const mechanics::SurfaceLoads surface_loads(scene, mesh);
     for (const auto &force : materials.body_forces())
       force.second->look_at(mesh);
@@ -363,14 +355,13 @@ namespace tetradapt::solve
         case scene::LoadType::traction:
         case scene::LoadType::pressure:
         case scene::LoadType::total_force:
-          add_side_load(scene.loads[number], number, surface_loads, forest, space, forces);
+          add_side_load(scene.loads[number], number, surface_loads, space, forces);
           break;
         case scene::LoadType::body_force:
         case scene::LoadType::gravity:
         case scene::LoadType::rotation:
           add_volume_load(
             *materials.body_forces().at(number),
-            forest,
             space,
             [](const Tensor<1, 3> &value, int, Tensor<1, 3> &force, SymmetricTensor<2, 3> &) {
               force = value;
@@ -387,7 +378,6 @@ namespace tetradapt::solve
     if (materials.has_thermal_strain())
       add_volume_load(
         materials.thermal_density(),
-        forest,
         space,
         [&](const Tensor<1, 3> &value, int region, Tensor<1, 3> &, SymmetricTensor<2, 3> &stress) {
           stress = materials.law(region).stress(value[0]
@@ -395,6 +385,5 @@ namespace tetradapt::solve
         },
         forces);
     forces.compress(dealii::VectorOperation::add);
-    return forces;
   }
 } // namespace tetradapt::solve

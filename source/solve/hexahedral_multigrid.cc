@@ -3,213 +3,210 @@
 
 #include "tetradapt/mesh/hexahedral_field.h"
 
-#include <cmath>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/mapping_q1.h>
+#include <deal.II/lac/diagonal_matrix.h>
+#include <deal.II/lac/precondition.h>
 
 namespace tetradapt::solve
 {
   namespace
   {
-    /** Embedding of degree 1 in a higher degree on the same cells, and its transpose. */
+    /**
+     * Embedding of degree 1 in a higher degree on the same cells, and its transpose.
+     *
+     * deal.II's MGTwoLevelTransfer does the same, but up to 9.4 it numbers all cells that
+     * bricks could be cut into down to the present depth, eight times as many with each level.
+     */
     class Transfer
     {
     public:
-      Transfer(const HexahedralLevel &fine, const HexahedralLevel &coarse)
-        : n_owned(fine.space.n_owned), begin(n_owned + 1, 0)
+      explicit Transfer(const HexahedralLevels &levels)
+        : matrix_free(levels.matrix_free), weights(levels.fine.stiffness->vector_layout())
       {
-        std::vector<std::vector<std::pair<unsigned int, double>>> rows(n_owned);
-        const auto         along = mesh::hexahedral_nodes(fine.space.degree);
-        const unsigned int n     = along.size();
-        for (unsigned int cell = 0; cell < fine.forest.cells().size(); ++cell)
-          for (unsigned int i = 0; i < fine.space.nodes_per_cell; ++i)
-            {
-              const unsigned int node = fine.space.nodes(cell)[i];
-              if (node >= n_owned || !rows[node].empty())
-                continue;
-              const double x[3] = {along[i % n], along[i / n % n], along[i / n / n]};
-              for (unsigned int v = 0; v < 8; ++v)
-                {
-                  double shape = 1.;
-                  for (unsigned int d = 0; d < 3; ++d)
-                    shape *= (v >> d & 1) != 0 ? x[d] : 1. - x[d];
-                  if (shape != 0.)
-                    coarse.space.expand(coarse.space.nodes(cell)[v],
-                                        [&](unsigned int parent, double weight) {
-                                          rows[node].emplace_back(parent, shape * weight);
-                                        });
-                }
-            }
-        for (unsigned int node = 0; node < n_owned; ++node)
+        const HexahedralSpace &space = levels.fine.space;
+        HexahedralSpace::Dofs  dofs;
+        for (unsigned int cell = 0; cell < space.forest().cells().size(); ++cell)
           {
-            for (const auto &[parent, weight] : rows[node])
+            space.get_dofs(cell, dofs);
+            for (const auto dof : dofs)
+              weights(dof) += 1.;
+          }
+        weights.compress(dealii::VectorOperation::add);
+        for (double &weight : weights)
+          weight = 1. / weight;
+        levels.fine.constraints.set_zero(weights);
+        weights.update_ghost_values();
+
+        const auto         along = mesh::hexahedral_nodes(space.degree());
+        const unsigned int n     = along.size();
+        for (unsigned int node = 0; node < n * n * n; ++node)
+          {
+            const double x[3] = {along[node % n], along[node / n % n], along[node / n / n]};
+            for (unsigned int v = 0; v < 8; ++v)
               {
-                parents.push_back(parent);
-                weights.push_back(weight);
+                double shape = 1.;
+                for (unsigned int d = 0; d < 3; ++d)
+                  shape *= (v >> d & 1) != 0 ? x[d] : 1. - x[d];
+                shapes.push_back(shape);
               }
-            begin[node + 1] = parents.size();
           }
       }
 
+      /** fine += P coarse. */
       void
-      add_prolongated(Vector &fine, const Vector &coarse) const
+      prolongate_and_add(Vector &fine, const Vector &coarse) const
       {
-        coarse.update_ghost_values();
-        const double *const x = coarse.begin();
-        double             *y = fine.begin();
-        for (unsigned int node = 0; node < n_owned; ++node, y += 3)
-          for (unsigned int k = begin[node]; k < begin[node + 1]; ++k)
-            for (unsigned int c = 0; c < 3; ++c)
-              y[c] += weights[k] * x[3 * parents[k] + c];
-        coarse.zero_out_ghost_values();
+        matrix_free.cell_loop<Vector, Vector>(
+          [this](const auto &, Vector &to, const Vector &from, const auto &range) {
+            for_cells(range, [&](Cells &fine_cells, Cells &weight, Cells &coarse_cells) {
+              coarse_cells.read_dof_values(from);
+              for (unsigned int i = 0; i < fine_cells.dofs_per_cell; ++i)
+                {
+                  fine_cells.begin_dof_values()[i] = 0.;
+                  const unsigned int c = i / n_nodes(), node = i % n_nodes();
+                  for (unsigned int v = 0; v < 8; ++v)
+                    fine_cells.begin_dof_values()[i]
+                      += shapes[8 * node + v] * coarse_cells.begin_dof_values()[8 * c + v];
+                  fine_cells.begin_dof_values()[i] *= weight.begin_dof_values()[i];
+                }
+              fine_cells.distribute_local_to_global(to);
+            });
+          },
+          fine,
+          coarse);
       }
 
+      /** coarse = P^T fine. */
       void
       restrict_to(Vector &coarse, const Vector &fine) const
       {
-        coarse          = 0.;
-        double *const y = coarse.begin();
-        const double *x = fine.begin();
-        for (unsigned int node = 0; node < n_owned; ++node, x += 3)
-          for (unsigned int k = begin[node]; k < begin[node + 1]; ++k)
-            for (unsigned int c = 0; c < 3; ++c)
-              y[3 * parents[k] + c] += weights[k] * x[c];
-        coarse.compress(dealii::VectorOperation::add);
+        matrix_free.cell_loop<Vector, Vector>(
+          [this](const auto &, Vector &to, const Vector &from, const auto &range) {
+            for_cells(range, [&](Cells &fine_cells, Cells &weight, Cells &coarse_cells) {
+              fine_cells.read_dof_values_plain(from);
+              std::fill_n(coarse_cells.begin_dof_values(), 24, Number(0.));
+              for (unsigned int i = 0; i < fine_cells.dofs_per_cell; ++i)
+                {
+                  const unsigned int c = i / n_nodes(), node = i % n_nodes();
+                  const Number       force
+                    = weight.begin_dof_values()[i] * fine_cells.begin_dof_values()[i];
+                  for (unsigned int v = 0; v < 8; ++v)
+                    coarse_cells.begin_dof_values()[8 * c + v] += shapes[8 * node + v] * force;
+                }
+              coarse_cells.distribute_local_to_global(to);
+            });
+          },
+          coarse,
+          fine,
+          true);
       }
 
     private:
-      unsigned int              n_owned;
-      std::vector<unsigned int> begin, parents; ///< local nodes of degree 1
-      std::vector<double>       weights;
+      using Cells  = dealii::FEEvaluation<3, -1, 0, 3>;
+      using Number = dealii::VectorizedArray<double>;
+
+      unsigned int
+      n_nodes() const
+      {
+        return shapes.size() / 8;
+      }
+      /** Calls function(cells of the fine level, their weights, the same cells of the coarse
+       * level) for batches of cells. */
+      template <typename Range, typename Function>
+      void
+      for_cells(const Range &range, const Function &function) const
+      {
+        Cells fine_cells(matrix_free, 0, 0), weight(matrix_free, 0, 0),
+          coarse_cells(matrix_free, 1, 1);
+        for (unsigned int batch = range.first; batch < range.second; ++batch)
+          {
+            for (Cells *cells : {&fine_cells, &weight, &coarse_cells})
+              cells->reinit(batch);
+            weight.read_dof_values_plain(weights);
+            function(fine_cells, weight, coarse_cells);
+          }
+      }
+
+      const MatrixFree   &matrix_free;
+      Vector              weights; ///< one by the number of a node's cells; zero if constrained
+      std::vector<double> shapes;  ///< the eight linear functions at each node of a cell
     };
 
-    class PMultigrid : public Preconditioner
+    class HexahedralMultigrid : public Preconditioner
     {
     public:
-      PMultigrid(const HexahedralLevel &fine, const HexahedralLevel &coarse)
-        : fine(fine), coarse(coarse), transfer(fine, coarse), coarse_solver(make_amg(coarse)),
-          inverse_diagonal(fine.stiffness.diagonal())
+      explicit HexahedralMultigrid(const HexahedralLevels &levels)
+        : stiffness(*levels.fine.stiffness), transfer(levels),
+          coarse_solver(make_hexahedral_amg(levels.coarse)), residual(stiffness.vector_layout()),
+          coarse_residual(levels.coarse.stiffness->vector_layout()),
+          coarse_correction(coarse_residual)
       {
-        for (unsigned int i = 0; i < inverse_diagonal.locally_owned_size(); ++i)
-          inverse_diagonal.local_element(i) = 1. / inverse_diagonal.local_element(i);
-        fine.supports.set_zero(inverse_diagonal);
-        for (Vector *vector : {&residual, &direction, &product})
-          vector->reinit(fine.space.layout);
-        for (Vector *vector : {&coarse_residual, &coarse_correction})
-          vector->reinit(coarse.space.layout);
-        find_largest_eigenvalue();
-        // Linear functions of a cell are far from those that it has more of.
-        sweeps             = fine.space.degree == 2 ? 4 : 6;
-        const double range = fine.space.degree == 2 ? 12. : 25.;
-        const double from  = largest / range;
-        centre             = .5 * (from + largest);
-        radius             = .5 * (largest - from);
+        Smoother::AdditionalData data;
+        data.preconditioner
+          = std::make_shared<dealii::DiagonalMatrix<Vector>>(stiffness.diagonal());
+        for (double &entry : data.preconditioner->get_vector())
+          entry = 1. / entry;
+        data.constraints.copy_from(levels.fine.constraints);
+        data.eig_cg_n_iterations = 12;
+        data.degree              = 2;
+        data.smoothing_range     = 2. * levels.fine.space.degree();
+        smoother.initialize(stiffness, data);
       }
 
       void
       vmult(Vector &destination, const Vector &source) const override
       {
-        destination = 0.;
-        smooth(destination, source, true);
-        fine.stiffness.vmult(product, destination);
-        residual = source;
-        residual -= product;
-        fine.supports.set_zero(residual);
+        smoother.vmult(destination, source);
+        stiffness.vmult(residual, destination);
+        residual.sadd(-1., 1., source);
         transfer.restrict_to(coarse_residual, residual);
-        coarse.supports.set_zero(coarse_residual);
         coarse_solver->vmult(coarse_correction, coarse_residual);
-        transfer.add_prolongated(destination, coarse_correction);
-        fine.supports.set_zero(destination);
-        smooth(destination, source, false);
+        transfer.prolongate_and_add(destination, coarse_correction);
+        smoother.step(destination, source);
       }
 
     private:
-      /** Chebyshev's iteration with the diagonal (Saad, Iterative methods, algorithm
-       * 12.1). */
-      void
-      smooth(Vector &x, const Vector &b, bool from_zero) const
-      {
-        const double sigma = centre / radius;
-        double       rho   = 1. / sigma;
-        for (unsigned int sweep = 0; sweep < sweeps; ++sweep)
-          {
-            const bool known = from_zero && sweep == 0;
-            if (!known)
-              fine.stiffness.vmult(product, x);
-            const double new_rho  = sweep == 0 ? rho : 1. / (2. * sigma - rho);
-            const double keep     = sweep == 0 ? 0. : rho * new_rho;
-            const double add      = sweep == 0 ? 1. / centre : 2. * new_rho / radius;
-            rho                   = new_rho;
-            const double *const B = b.begin(), *const P = product.begin(),
-                                *const D = inverse_diagonal.begin();
-            double *const d = direction.begin(), *const X = x.begin();
-            for (unsigned int i = 0; i < x.locally_owned_size(); ++i)
-              {
-                d[i] = (sweep == 0 ? 0. : keep * d[i]) + add * D[i] * (known ? B[i] : B[i] - P[i]);
-                X[i] += d[i];
-              }
-          }
-      }
+      using Smoother = dealii::PreconditionChebyshev<HexahedralStiffness, Vector>;
 
-      /** By power iteration, with a little room. */
-      void
-      find_largest_eigenvalue()
-      {
-        Vector x(fine.space.layout);
-        // Rough, and the same for any distribution over ranks.
-        for (unsigned int i = 0; i < x.locally_owned_size(); ++i)
-          {
-            const unsigned int node  = i / 3 * 3;
-            double             phase = i % 3;
-            for (unsigned int d = 0; d < 3; ++d)
-              phase += 1e3 * (d + 1.3) * fine.positions.local_element(node + d) / length();
-            x.local_element(i) = std::sin(phase);
-          }
-        fine.supports.set_zero(x);
-        double norm = x.l2_norm();
-        for (unsigned int step = 0; step < 12 && norm > 0.; ++step)
-          {
-            x *= 1. / norm;
-            fine.stiffness.vmult(product, x);
-            for (unsigned int i = 0; i < x.locally_owned_size(); ++i)
-              x.local_element(i) = inverse_diagonal.local_element(i) * product.local_element(i);
-            norm    = x.l2_norm();
-            largest = norm;
-          }
-        largest *= 1.2;
-      }
-
-      double
-      length() const
-      {
-        double      result = 0.;
-        const auto &planes = fine.forest.grid().planes;
-        for (const auto &along : planes)
-          result = std::max(result, along.back() - along.front());
-        return result;
-      }
-
-      const HexahedralLevel          &fine, &coarse;
+      const HexahedralStiffness      &stiffness;
       Transfer                        transfer;
       std::unique_ptr<Preconditioner> coarse_solver;
-      Vector                          inverse_diagonal; ///< zero where prescribed
-      unsigned int                    sweeps  = 4;
-      double                          largest = 1., centre = 1., radius = 1.;
-      mutable Vector residual, direction, product, coarse_residual, coarse_correction;
+      Smoother                        smoother;
+      mutable Vector                  residual, coarse_residual, coarse_correction;
     };
   } // namespace
 
-  HexahedralLevel::HexahedralLevel(const scene::Scene           &scene,
-                                   const mechanics::MaterialMap &materials,
-                                   const HexahedralForest       &forest,
-                                   const unsigned int            degree)
-    : forest(forest), space(forest.number(degree)), stiffness(forest, space, materials),
-      positions(node_positions(forest, space)),
-      supports(prescribe(scene.supports, forest, space, positions))
+  HexahedralLevels::HexahedralLevels(const scene::Scene           &scene,
+                                     const mechanics::MaterialMap &materials,
+                                     const HexahedralForest       &forest,
+                                     const unsigned int            degree)
+    : fine{{forest, degree}, Constraints(), nullptr}, coarse{{forest, 1}, Constraints(), nullptr}
   {
+    for (HexahedralLevel *level : {&fine, &coarse})
+      level->constraints = make_constraints(scene.supports, level->space);
+    MatrixFree::AdditionalData data;
+    data.tasks_parallel_scheme = MatrixFree::AdditionalData::none;
+    data.mapping_update_flags  = dealii::update_gradients | dealii::update_JxW_values;
+    data.cell_vectorization_categories_strict = true;
+    for (const auto &cell : forest.triangulation().active_cell_iterators())
+      data.cell_vectorization_category.push_back(cell->material_id());
+    using Handlers       = std::vector<const dealii::DoFHandler<3> *>;
+    using AllConstraints = std::vector<const Constraints *>;
+    using Rules          = std::vector<dealii::QGauss<1>>;
+    matrix_free.reinit(dealii::MappingQ1<3>(),
+                       Handlers{&fine.space.dof_handler(), &coarse.space.dof_handler()},
+                       AllConstraints{&fine.constraints, &coarse.constraints},
+                       Rules{dealii::QGauss<1>(degree + 1), dealii::QGauss<1>(2)},
+                       data);
+    for (HexahedralLevel *level : {&fine, &coarse})
+      level->stiffness = std::make_unique<HexahedralStiffness>(
+        level->space, level->constraints, materials, matrix_free, level == &fine ? 0 : 1);
   }
 
   std::unique_ptr<Preconditioner>
-  make_p_multigrid(const HexahedralLevel &fine, const HexahedralLevel &coarse)
+  make_hexahedral_multigrid(const HexahedralLevels &levels)
   {
-    return std::make_unique<PMultigrid>(fine, coarse);
+    return std::make_unique<HexahedralMultigrid>(levels);
   }
 } // namespace tetradapt::solve

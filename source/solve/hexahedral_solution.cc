@@ -41,24 +41,23 @@ namespace tetradapt::solve
 
     /** The whole field, on every rank. Collective. */
     std::shared_ptr<mesh::HexahedralField>
-    gather_field(const HexahedralLevel &level, const Vector &displacement)
+    gather_field(const HexahedralSpace &space, const Vector &displacement)
     {
-      const HexahedralForest &forest = level.forest;
-      const HexahedralGrid   &grid   = forest.grid();
+      const HexahedralForest &forest = space.forest();
       std::vector<double>     numbers, nodal;
+      HexahedralSpace::Dofs   dofs;
       numbers.reserve(7 * forest.cells().size());
-      nodal.reserve(3 * level.space.cell_nodes.size());
+      nodal.reserve(3 * forest.cells().size() * space.nodes_per_cell());
       displacement.update_ghost_values();
-      for (const auto &cell : forest.cells())
+      for (unsigned int c = 0; c < forest.cells().size(); ++c)
         {
+          const HexahedralCell &cell = forest.cells()[c];
           for (unsigned int d = 0; d < 3; ++d)
             numbers.insert(numbers.end(), {cell.lower[d], cell.size[d]});
-          numbers.push_back(grid.regions[cell.brick]);
-        }
-      for (const unsigned int node : level.space.cell_nodes)
-        {
-          const Tensor<1, 3> u = level.space.value(displacement, node);
-          nodal.insert(nodal.end(), {u[0], u[1], u[2]});
+          numbers.push_back(cell.region);
+          space.get_dofs(c, dofs);
+          for (const auto dof : dofs)
+            nodal.push_back(displacement(dof));
         }
       displacement.zero_out_ghost_values();
       numbers = gather(numbers, forest.communicator());
@@ -77,48 +76,41 @@ namespace tetradapt::solve
         }
       for (std::size_t i = 0; i < nodal.size(); ++i)
         values[i / 3][i % 3] = nodal[i];
-      return std::make_shared<mesh::HexahedralField>(level.space.degree,
-                                                     grid.planes,
+      return std::make_shared<mesh::HexahedralField>(space.degree(),
+                                                     forest.grid().planes,
                                                      std::move(cells),
                                                      std::move(values));
     }
 
-    /** The first iterate: the field of the mesh before, and what is prescribed. */
+    /** The first iterate: the field of the mesh before, and what is prescribed. Collective. */
     Vector
     first_iterate(const HexahedralLevel &level, const mesh::HexahedralField *before)
     {
-      Vector x(level.space.layout);
-      for (unsigned int node = 0; node < level.space.n_owned; ++node)
+      const HexahedralSpace  &space  = level.space;
+      const HexahedralForest &forest = space.forest();
+      Vector                  x(level.stiffness->vector_layout());
+      const auto              along = mesh::hexahedral_nodes(space.degree());
+      const unsigned int      n     = along.size();
+      std::vector<bool>       known(x.locally_owned_size(), false);
+      HexahedralSpace::Dofs   dofs;
+      for (unsigned int c = 0; before != nullptr && c < forest.cells().size(); ++c)
         {
-          Tensor<1, 3> u;
-          if (before != nullptr)
-            {
-              Point<3> p;
-              for (unsigned int d = 0; d < 3; ++d)
-                p[d] = level.positions.local_element(3 * node + d);
-              const auto at = before->locate(p);
-              u             = before->value(at.cell, at.unit);
-            }
-          for (unsigned int c = 0; c < 3; ++c)
-            x.local_element(3 * node + c) = (level.supports.fixed[node] >> c & 1) != 0
-                                              ? level.supports.values.local_element(3 * node + c)
-                                              : u[c];
+          space.get_dofs(c, dofs);
+          for (unsigned int i = 0; i < space.nodes_per_cell(); ++i)
+            if (x.in_local_range(dofs[3 * i])
+                && !known[x.get_partitioner()->global_to_local(dofs[3 * i])])
+              {
+                known[x.get_partitioner()->global_to_local(dofs[3 * i])] = true;
+                const auto at                                            = before->locate(
+                  forest.cells()[c].at({along[i % n], along[i / n % n], along[i / n / n]}));
+                const Tensor<1, 3> u = before->value(at.cell, at.unit);
+                for (unsigned int d = 0; d < 3; ++d)
+                  x(dofs[3 * i + d]) = u[d];
+              }
         }
+      level.constraints.distribute(x);
       return x;
     }
-
-    /** The stiffness of a level in the space of free unknowns. */
-    struct FreeStiffness
-    {
-      const HexahedralLevel &level;
-
-      void
-      vmult(Vector &forces, const Vector &displacement) const
-      {
-        level.stiffness.vmult(forces, displacement);
-        level.supports.set_zero(forces);
-      }
-    };
 
     /** Conjugate gradients for what is missing to @p x, until the estimated error in the
      * energy norm is below @p error, or, if that is zero, below first_residue of what the
@@ -132,19 +124,24 @@ namespace tetradapt::solve
             const core::Log       &log,
             Vector                &x)
     {
-      Vector residual(level.space.layout), correction(residual);
-      level.stiffness.vmult(residual, x);
+      auto            inner    = level.stiffness->inner_forces(x);
+      Vector         &residual = inner.on_free;
+      Vector          correction(level.stiffness->vector_layout());
       IterationLimits limits;
-      limits.residual       = rounding * std::max(forces.l2_norm(), residual.l2_norm());
+      limits.residual = rounding * std::max(forces.l2_norm(), inner.size);
+      if (!std::isfinite(limits.residual))
+        throw core::NumericalError("The forces on the reference's hexahedra, or their squares, are "
+                                   "not finite. Look at the loads, the supports and the material "
+                                   "constants, or choose other units.");
       limits.error          = error;
       limits.relative_error = error > 0. ? 0. : first_residue;
       limits.max_iterations = max_iterations;
       residual.sadd(-1., 1., forces);
-      level.supports.set_zero(residual);
+      level.constraints.set_zero(residual);
       EnergyControl control(limits, [&](const unsigned int step, double) {
         log.progress("reference: conjugate gradients, iteration " + std::to_string(step));
       });
-      if (conjugate_gradients(FreeStiffness{level}, preconditioner, residual, control, correction)
+      if (conjugate_gradients(*level.stiffness, preconditioner, residual, control, correction)
           != Ending::converged)
         throw core::NumericalError(
           "Conjugate gradients did not converge on the reference's hexahedra in "
@@ -152,6 +149,7 @@ namespace tetradapt::solve
           + " iterations. Look for materials of very different stiffness or a Poisson ratio "
             "close to 0.5; or raise Solver/Maximum iterations.");
       x += correction;
+      level.constraints.distribute(x);
       return control.result().iterations;
     }
 
@@ -194,8 +192,11 @@ namespace tetradapt::solve
     int
     sign_of_gain(const HexahedralLevel &level, const Vector &forces)
     {
-      const bool moved  = level.supports.values.linfty_norm() > 0.,
-                 loaded = forces.linfty_norm() > 0.;
+      const bool moved
+        = dealii::Utilities::MPI::max(level.constraints.has_inhomogeneities() ? 1 : 0,
+                                      level.space.forest().communicator())
+          > 0,
+        loaded = forces.linfty_norm() > 0.;
       return moved == loaded ? 0 : loaded ? 1 : -1;
     }
 
@@ -219,18 +220,18 @@ namespace tetradapt::solve
   } // namespace
 
   std::optional<double>
-  calibrated_error(const std::vector<EnergyLevel> &levels)
+  calibrated_error(const std::vector<NestedSolution> &levels)
   {
     const std::size_t n = levels.size();
     if (n < 3)
       return std::nullopt;
-    const EnergyLevel &last   = levels.back();
-    double             factor = 0., largest = 0.; // of squares
+    const NestedSolution &last   = levels.back();
+    double                factor = 0., largest = 0.; // of squares
     for (std::size_t steps = 1; steps <= std::min<std::size_t>(5, n - 1); ++steps)
       {
-        const EnergyLevel &before = levels[n - 1 - steps];
-        const double       gained = last.gain - before.gain;
-        const double       decrease
+        const NestedSolution &before = levels[n - 1 - steps];
+        const double          gained = last.gain - before.gain;
+        const double          decrease
           = before.indicator * before.indicator - last.indicator * last.indicator;
         if (decrease > 0.)
           factor = std::max(factor, gained / decrease);
@@ -260,28 +261,27 @@ namespace tetradapt::solve
     double             predicted = 0.; // error of the next mesh
     while (true)
       {
-        const HexahedralLevel fine(scene, materials, forest, scene.reference.degree);
-        const HexahedralLevel coarse(scene, materials, forest, 1);
-        solution.n_dofs = 3 * fine.space.n_nodes;
+        const HexahedralLevels levels(scene, materials, forest, scene.reference.degree);
+        const HexahedralLevel &fine = levels.fine;
+        solution.n_dofs             = fine.space.n_dofs();
         if (solution.levels.empty() && solution.n_dofs > scene.reference.max_dofs)
           throw core::InputError(
             "Reference/Maximum unknowns: the coarsest hexahedra of this body have "
             + std::to_string(solution.n_dofs) + " unknowns. Allow more, or use Type = fine mesh.");
         log.progress("reference: " + std::to_string(solution.n_dofs) + " unknowns on hexahedra");
-        const Vector forces         = nodal_forces(scene, mesh, materials, forest, fine.space);
+        Vector forces(fine.stiffness->vector_layout());
+        nodal_forces(scene, mesh, materials, fine.space, forces);
         Vector       x              = first_iterate(fine, solution.displacement.get());
-        const auto   preconditioner = make_p_multigrid(fine, coarse);
+        const auto   preconditioner = make_hexahedral_multigrid(levels);
         const double limit
           = predicted > 0. ? algebraic * predicted : first_residue * std::sqrt(solution.energy);
         const unsigned int iterations
           = iterate(fine, *preconditioner, forces, limit, scene.solver.max_iterations, log, x);
 
-        Vector product(fine.space.layout);
-        fine.stiffness.vmult(product, x);
         const double work     = forces * x;
-        solution.energy       = std::max(0., x * product);
-        solution.displacement = gather_field(fine, x);
-        const auto indicators = hexahedral_indicators(forest, fine.space, materials, x);
+        solution.energy       = std::max(0., fine.stiffness->inner_forces(x).energy);
+        solution.displacement = gather_field(fine.space, x);
+        const auto indicators = hexahedral_indicators(fine.space, materials, x);
         solution.levels.push_back(
           {double(solution.n_dofs), 2. * work - solution.energy, total(indicators, communicator)});
         // Strain that temperatures cause freely is no stress.

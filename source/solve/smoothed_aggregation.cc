@@ -77,6 +77,14 @@ namespace tetradapt::solve
                                                          scale);
   }
 
+  std::unique_ptr<Preconditioner>
+  make_amg(const BlockRows<3, 3>                                            &rows,
+           const std::vector<NodeModes<3>>                                  &modes,
+           const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &layout)
+  {
+    return std::make_unique<SmoothedAggregation<double>>(rows, modes, layout, 1.);
+  }
+
   template std::unique_ptr<ApproximateInverse<float>>
   make_amg(const mechanics::BlockMatrix &, const fem::Space &, const fem::FixedUnknowns &, double);
   template std::unique_ptr<ApproximateInverse<double>>

@@ -4,6 +4,7 @@
 // find what the direct solver finds in few iterations, however the body is turned; ordinary
 // cells are left alone; and where nothing helps, that is seen in time.
 
+#include "tetradapt/fem/triangulation.h"
 #include "tetradapt/solve/flat_nodes.h"
 
 #include "solving.h"
@@ -116,9 +117,9 @@ namespace
   bool
   is_flat(const Body &body)
   {
-    const mechanics::MeshPartition     partition(*body, MPI_COMM_WORLD);
-    const mesh::EdgeTable              edges = mesh::build_edges(*body);
-    const mechanics::DisplacementSpace space(partition, 2, &edges);
+    const fem::Triangulation triangulation(*body, MPI_COMM_WORLD);
+    const mesh::EdgeTable    edges = mesh::build_edges(*body);
+    const fem::Space         space(triangulation, 2, &edges);
     return solve::find_flat_nodes(space).exist;
   }
 

@@ -3,7 +3,7 @@
 #define tetradapt_solve_hexahedral_indicators_h
 
 #include "tetradapt/mechanics/material_map.h"
-#include "tetradapt/solve/hexahedral_forest.h"
+#include "tetradapt/solve/hexahedral_space.h"
 
 namespace tetradapt::solve
 {
@@ -12,10 +12,12 @@ namespace tetradapt::solve
    * root of int (s*-s_h) : C^-1 : (s*-s_h), where s* is continuous within each region
    * and has at the nodes the mean of the stresses of the cells around (Zienkiewicz and
    * Zhu, IJNME 24, 1987). They tell where the error is, not how large. Collective.
+   *
+   * @param displacement has its values at hanging nodes too. Its layout has the unknowns of own
+   *        cells, and what these depend on.
    */
   std::vector<double>
-  hexahedral_indicators(const HexahedralForest       &forest,
-                        const HexahedralSpace        &space,
+  hexahedral_indicators(const HexahedralSpace        &space,
                         const mechanics::MaterialMap &materials,
                         const Vector                 &displacement);
 } // namespace tetradapt::solve

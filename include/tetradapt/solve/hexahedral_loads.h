@@ -3,49 +3,33 @@
 #define tetradapt_solve_hexahedral_loads_h
 
 #include "tetradapt/mechanics/material_map.h"
-#include "tetradapt/solve/hexahedral_forest.h"
+#include "tetradapt/solve/hexahedral_space.h"
 
 namespace tetradapt::solve
 {
-  /** The rest positions of the local nodes, ghosts included, as a vector of the space.
-   * Collective. */
-  Vector
-  node_positions(const HexahedralForest &forest, const HexahedralSpace &space);
-
-  /** What the supports prescribe at the local nodes, ghosts included. */
-  struct HexahedralSupports
-  {
-    std::vector<unsigned char> fixed;  ///< one a node; bit c is set: component c is prescribed
-    Vector                     values; ///< prescribed values, zero elsewhere
-
-    /** Zero at what is prescribed. */
-    void
-    set_zero(Vector &vector) const;
-  };
-
   /**
-   * Evaluates the supports at the nodes of the sides that they select. Where two
-   * supports meet, the one that the scene lists last holds. Collective.
-   * @param positions of node_positions().
+   * The constraints of hanging nodes, and what the supports prescribe at the nodes of the
+   * sides that they select. Where two supports meet, the one that the scene lists last holds.
+   * Closed. Collective.
    */
-  HexahedralSupports
-  prescribe(const std::vector<scene::SupportParameters> &supports,
-            const HexahedralForest                      &forest,
-            const HexahedralSpace                       &space,
-            const Vector                                &positions);
+  Constraints
+  make_constraints(const std::vector<scene::SupportParameters> &supports,
+                   const HexahedralSpace                       &space);
 
   /**
    * Consistent nodal forces of tractions, pressures, body forces, weight and thermal
    * strain, by Gauss' rule with degree + 2 points in each direction. Collective.
    *
    * @param mesh of the scene, whose region names loads may use.
+   * @param forces are overwritten. Their layout has the unknowns of own cells, and what these
+   *        depend on.
    */
-  Vector
+  void
   nodal_forces(const scene::Scene           &scene,
                const mesh::TetMesh          &mesh,
                const mechanics::MaterialMap &materials,
-               const HexahedralForest       &forest,
-               const HexahedralSpace        &space);
+               const HexahedralSpace        &space,
+               Vector                       &forces);
 } // namespace tetradapt::solve
 
 #endif

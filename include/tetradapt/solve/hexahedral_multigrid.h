@@ -8,35 +8,39 @@
 
 namespace tetradapt::solve
 {
-  /** One degree on the cells of a forest: nodes, stiffness and supports. */
+  /** One degree on the cells of a forest: unknowns, supports and stiffness. */
   struct HexahedralLevel
   {
-    /** Collective. */
-    HexahedralLevel(const scene::Scene           &scene,
-                    const mechanics::MaterialMap &materials,
-                    const HexahedralForest       &forest,
-                    unsigned int                  degree);
-
-    const HexahedralForest &forest;
-    HexahedralSpace         space;
-    HexahedralStiffness     stiffness;
-    Vector                  positions;
-    HexahedralSupports      supports;
+    HexahedralSpace                      space;
+    Constraints                          constraints; ///< hanging nodes and supports
+    std::unique_ptr<HexahedralStiffness> stiffness;
   };
 
-  /** Smoothed-aggregation AMG (Trilinos ML) with the six rigid motions as near null
-   * space, for the assembled stiffness of a level of degree 1. Collective. */
+  /** A degree and degree 1 on the same cells: what p-multigrid needs. */
+  struct HexahedralLevels
+  {
+    /** Collective. */
+    HexahedralLevels(const scene::Scene           &scene,
+                     const mechanics::MaterialMap &materials,
+                     const HexahedralForest       &forest,
+                     unsigned int                  degree);
+
+    HexahedralLevel fine, coarse;
+    MatrixFree      matrix_free; ///< has the fine level as number 0, the coarse one as 1
+  };
+
+  /** One cycle of the project's smoothed aggregation, see make_amg(), for the stiffness of a
+   * level of degree 1. Its vectors have the level's owned unknowns. Collective. */
   std::unique_ptr<Preconditioner>
-  make_amg(const HexahedralLevel &level);
+  make_hexahedral_amg(const HexahedralLevel &level);
 
   /**
-   * One V-cycle of p-multigrid: Chebyshev smoothing with the diagonal on the @p fine
-   * level, and the level of degree 1 on the same cells solved by one cycle of AMG. The
-   * functions of degree 1 are among those of the higher degree, hanging nodes
-   * included. Keeps references to both levels. Collective.
+   * One V-cycle of p-multigrid by global coarsening: Chebyshev smoothing with the diagonal on
+   * the fine level, and the level of degree 1 on the same cells solved by one cycle of AMG.
+   * Keeps a reference to the levels. Collective.
    */
   std::unique_ptr<Preconditioner>
-  make_p_multigrid(const HexahedralLevel &fine, const HexahedralLevel &coarse);
+  make_hexahedral_multigrid(const HexahedralLevels &levels);
 } // namespace tetradapt::solve
 
 #endif

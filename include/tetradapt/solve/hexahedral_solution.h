@@ -14,8 +14,8 @@
 
 namespace tetradapt::solve
 {
-  /** One mesh of a sequence, each a refinement of the one before. */
-  struct EnergyLevel
+  /** The solution on one mesh of a sequence, each a refinement of the one before. */
+  struct NestedSolution
   {
     double n_dofs = 0.;
     /** 2 F(u_h) - a(u_h,u_h): it rises to that of the solution u, and what is missing
@@ -35,7 +35,7 @@ namespace tetradapt::solve
    * @return empty for fewer than three levels, or if nothing was gained.
    */
   std::optional<double>
-  calibrated_error(const std::vector<EnergyLevel> &levels);
+  calibrated_error(const std::vector<NestedSolution> &levels);
 
   /** A static equilibrium on hexahedra. Every MPI rank holds all of it. */
   struct HexahedralSolution
@@ -49,9 +49,9 @@ namespace tetradapt::solve
     double estimated_error = 0.;
     /** a(u,u) of the solution itself, by extrapolation and without the estimate's
      * margin; empty where loads and prescribed displacements act together. */
-    std::optional<double>    extrapolated_energy;
-    bool                     reached = false; ///< the tolerance, or the limit came first
-    std::vector<EnergyLevel> levels;
+    std::optional<double>       extrapolated_energy;
+    bool                        reached = false; ///< the tolerance, or the limit came first
+    std::vector<NestedSolution> levels;
   };
 
   /**

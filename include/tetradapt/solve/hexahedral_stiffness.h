@@ -2,79 +2,101 @@
 #ifndef tetradapt_solve_hexahedral_stiffness_h
 #define tetradapt_solve_hexahedral_stiffness_h
 
+#include "tetradapt/mechanics/linear_operator.h"
 #include "tetradapt/mechanics/material_map.h"
-#include "tetradapt/solve/hexahedral_forest.h"
+#include "tetradapt/solve/hexahedral_space.h"
+#include "tetradapt/solve/trilinos_types.h"
+
+#include <deal.II/base/subscriptor.h>
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/matrix_free/fe_evaluation.h>
+#include <deal.II/matrix_free/matrix_free.h>
+
+#include <map>
 
 namespace tetradapt::solve
 {
-  /** The stiffness of one axis-parallel cell of one material with the law's tangent at
-   * rest, by products of one-dimensional integrals, which are exact. */
-  class HexahedralElement
-  {
-  public:
-    HexahedralElement(unsigned int                      degree,
-                      const Tensor<1, 3>               &size,
-                      const mechanics::ConstitutiveLaw &law);
-
-    unsigned int
-    nodes_per_cell() const
-    {
-      return n * n * n;
-    }
-    /** Force on component @p i of node @p a by a displacement of component @p j of node
-     * @p b. */
-    double
-    entry(unsigned int a, unsigned int i, unsigned int b, unsigned int j) const;
-
-  private:
-    unsigned int        n;         ///< nodes along an edge
-    std::vector<double> integrals; ///< of phi_a phi_b, phi_a phi_b', phi_a' phi_b, phi_a' phi_b'
-    double              coefficients[3][3][3][3]; ///< of the derivatives: i, k, j, l
-  };
+  using MatrixFree = dealii::MatrixFree<3, double>;
 
   /**
-   * The stiffness of a HexahedralSpace of degree 1 to 3, applied cell by cell without
-   * a matrix. The stiffness of an axis-parallel cell commutes with reflections in its
-   * three middle planes if the material does: sums and differences of mirrored nodes
-   * fall into eight sets that do not couple, which takes an eighth of the
-   * multiplications. Eight cells are computed at a time.
+   * The stiffness of a HexahedralSpace with the laws' tangents at rest, applied cell by cell
+   * without a matrix (dealii::MatrixFree), in the space of unknowns without constraints: it
+   * takes the others for zero, or for means of their parents, and gives no forces on them.
    */
-  class HexahedralStiffness
+  class HexahedralStiffness : public mechanics::LinearOperator<double>, public dealii::Subscriptor
   {
   public:
-    /** Keeps references to @p forest and @p space.
-     * @throws core::InputError for a material that is not symmetric to the coordinate
-     *         planes. */
-    HexahedralStiffness(const HexahedralForest       &forest,
-                        const HexahedralSpace        &space,
-                        const mechanics::MaterialMap &materials);
-    ~HexahedralStiffness();
+    /** @param matrix_free has the space and a Gauss rule as numbers @p index, and cells of one
+     *        region only in each batch. References to it, to @p space and to @p constraints are
+     *        kept. */
+    HexahedralStiffness(const HexahedralSpace        &space,
+                        const Constraints            &constraints,
+                        const mechanics::MaterialMap &materials,
+                        const MatrixFree             &matrix_free,
+                        unsigned int                  index);
 
-    /** forces = K displacement, with all nodes free. Collective. */
+    /** forces = K displacement. Collective. */
     void
-    vmult(Vector &forces, const Vector &displacement) const;
+    vmult(Vector &forces, const Vector &displacement) const override;
 
-    /** The diagonal of K. Collective. */
+    /** Asked for by deal.II's smoother for a diagonal that is given to it.
+     * @throws dealii::ExcNotImplemented */
+    double
+    el(dealii::types::global_dof_index, dealii::types::global_dof_index) const
+    {
+      AssertThrow(false, dealii::ExcNotImplemented());
+      return 0.;
+    }
+
+    /** The owned unknowns, and as ghosts the others of own cells and what these depend on. */
+    const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &
+    vector_layout() const override
+    {
+      return matrix_free.get_vector_partitioner(index);
+    }
+
+    /** What a displacement does in the body, the prescribed part of it included. */
+    struct InnerForces
+    {
+      Vector on_free;     ///< zero on constrained unknowns
+      double energy = 0.; ///< a(u,u)
+      double size   = 0.; ///< root of the sum of squares of what the cells contribute
+    };
+    /** @param displacement has its values at constrained unknowns too. Collective. */
+    InnerForces
+    inner_forces(const Vector &displacement) const;
+
+    /** About the diagonal of K: of what a hanging node gives to its parents, the products of
+     * different ones are left out. One for constrained unknowns. Collective. */
     Vector
     diagonal() const;
 
-    /** The element of an own cell, and by what its entries are to be multiplied. */
-    const HexahedralElement &
-    element(unsigned int cell) const;
-    double
-    scale(unsigned int cell) const
-    {
-      return scales[cell];
-    }
+    /** Adds all of K to a matrix that has its pattern; constrained unknowns get a positive number
+     * on the diagonal. Collective. */
+    void
+    assemble(SparseMatrix &matrix) const;
 
   private:
-    struct Kind;
-    const HexahedralForest   &forest;
-    const HexahedralSpace    &space;
-    std::vector<Kind>         kinds;   ///< shape and material
-    std::vector<unsigned int> kind_of; ///< own cells
-    std::vector<double>       scales;
-    std::vector<unsigned int> batches; ///< cells, eight a batch, of one kind; none fills up
+    using Cells  = dealii::FEEvaluation<3, -1, 0, 3>; ///< a batch of them
+    using Number = dealii::VectorizedArray<double>;
+
+    /** Integrates the stress of a batch's values times the strain of each function. */
+    void
+    multiply(Cells &cells) const;
+    /** The matrix of one cell of a batch, in deal.II's order of its unknowns. */
+    dealii::FullMatrix<double>
+    cell_matrix(unsigned int batch, unsigned int lane) const;
+    /** Calls function(unknowns, matrix, factor of the matrix) for each own cell. */
+    template <typename Function>
+    void
+    for_cell_matrices(const Function &function) const;
+
+    const HexahedralSpace                       &space;
+    const Constraints                           &constraints;
+    const MatrixFree                            &matrix_free;
+    unsigned int                                 index;
+    std::map<int, dealii::SymmetricTensor<4, 3>> tangents; ///< of regions
+    std::vector<int>                             region_of_batch;
   };
 } // namespace tetradapt::solve
 

@@ -4,6 +4,7 @@
 
 #include "tetradapt/mechanics/matrix_free_stiffness.h"
 #include "tetradapt/mechanics/stiffness.h"
+#include "tetradapt/solve/aggregation.h"
 #include "tetradapt/solve/flat_nodes.h"
 
 #include <memory>
@@ -46,6 +47,14 @@ namespace tetradapt::solve
            const fem::Space             &space,
            const fem::FixedUnknowns     &fixed,
            double                        scale);
+
+  /** The same for any matrix with three unknowns a node: its rows, the rigid motions at the
+   * owned nodes, and the layout of its columns, which is that of the vectors that it is
+   * applied to. Collective. */
+  std::unique_ptr<Preconditioner>
+  make_amg(const BlockRows<3, 3>                                            &rows,
+           const std::vector<NodeModes<3>>                                  &modes,
+           const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &layout);
 
   /** One cycle of Trilinos' smoothed aggregation (ML) with the six rigid motions as near null
    * space, for a matrix of degree 1. Slower than make_amg() (doc/performance.md), but its coarse
