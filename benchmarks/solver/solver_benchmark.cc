@@ -3,15 +3,16 @@
 // The solver alone, on the clamped beam 10 x 1 x 1 in equal tetrahedra:
 //
 //   tetradapt_solver_benchmark <subdivisions> [degree [nu [contrast [distortion [product
-//     [direct [trilinos]]]]]]]
+//     [direct [flatness [trilinos]]]]]]]]
 //
 // prints one line of CSV with a header: unknowns, iterations to 1e-8, seconds of set-up
 // (edges, supports, numbering, matrix, preconditioner) and of the solve (iterations,
 // energies), and of one product with the assembled matrix (best of twenty) if product
 // is 1, also in single precision and matrix-free; the sparse Cholesky factorisation solves if
-// direct is 1; multigrid is that of Trilinos if trilinos is 1. CPU seconds, the largest of all
-// ranks, and wall seconds of the first two. A contrast makes the half x > 5 that many times
-// stiffer; a distortion moves inner points by up to that part of a brick.
+// direct is 1. CPU seconds, the largest of all ranks, and wall seconds of the first two. A contrast
+// makes the half x > 5 that many times stiffer; a distortion moves inner points by up to that part
+// of a brick; a flatness makes the beam that many times thinner in z, and so its cells flat;
+// multigrid is that of Trilinos if trilinos is 1.
 
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/fem/triangulation.h"
@@ -67,7 +68,7 @@ namespace
   }
 
   std::shared_ptr<mesh::TetMesh>
-  beam(unsigned int n, double distortion)
+  beam(unsigned int n, double distortion, double flatness)
   {
     auto body = std::make_shared<mesh::TetMesh>(
       mesh::bricks(Point<3>(), Point<3>(10, 1, 1), {{10 * n, n, n}}));
@@ -83,6 +84,8 @@ namespace
       for (unsigned int d = 0; d < 3; ++d)
         if (p[d] > 1e-9 && p[d] < (d == 0 ? 10. : 1.) - 1e-9 && std::abs(p[0] - 5.) > 1e-9)
           p[d] += distortion / n * std::sin(phase += 1.7);
+    for (auto &p : body->points)
+      p[2] /= flatness;
     mesh::finalize(*body, "beam");
     return body;
   }
@@ -170,9 +173,9 @@ namespace
       = [&](int i, double value) { return argc > i ? std::stod(argv[i]) : value; };
     const unsigned int n = argument(1, 8), degree = argument(2, 2);
     scene::Scene       scene = cantilever(argument(3, 0.3), argument(4, 1.), argument(7, 0.) > 0.);
-    if (argument(8, 0.) > 0.)
+    if (argument(9, 0.) > 0.)
       scene.solver.multigrid = scene::SolverParameters::Multigrid::trilinos;
-    const auto body = beam(n, argument(5, 0.));
+    const auto body = beam(n, argument(5, 0.), argument(8, 1.));
     mesh::select_faces(*body, mesh::face_selectors(scene));
     const mechanics::MaterialMap materials(scene, *body);
 

@@ -126,7 +126,7 @@ namespace tetradapt::solve
   {
     // Looked at now and then only: the rate sums over all steps.
     return limits.give_up_from > 0 && reached.iterations >= limits.give_up_from
-           && reached.iterations % 10 == 0 && predicted_iterations() > limits.max_iterations;
+           && reached.iterations % 10 == 0 && predicted_iterations() > limits.most_predicted;
   }
 
   IterationResult

@@ -26,13 +26,14 @@ namespace tetradapt::solve
     /** Least energy of a solution by that of what was added to the first iterate. */
     constexpr double least_energy = 1e-12;
 
-    /** Where a factorisation can take over: the iteration from which a prediction of the
-     * remaining ones counts. Where they get nowhere, both attempts, in single and in double
-     * precision, end within about 100. So early a prediction may be wrong, as where bending
-     * is found late: that costs a factorisation, but no solution. */
+    /** The iteration from which a prediction of the remaining ones counts. So early it may be
+     * wrong, as where bending is found late: that costs time, but no solution. */
     constexpr unsigned int prediction_from = 40;
 
-    /** The largest number of unknowns for which it does. */
+    /** Predicted iterations above which the correction for flat cells is worth its set-up. */
+    constexpr unsigned int most_without_correction = 100;
+
+    /** The largest number of unknowns for which a factorisation takes over. */
     constexpr unsigned long most_factorised_later = 150000;
 
     /** One cycle of algebraic multigrid for a matrix of degree 1 times @p scale. */
@@ -83,8 +84,7 @@ namespace tetradapt::solve
         if (space.degree() == 2)
           flat = find_flat_nodes(space);
         const bool ml = parameters.multigrid == scene::SolverParameters::Multigrid::trilinos;
-        // Bending of flat cells is lost in the rounding of single precision.
-        if (ml || flat.exist)
+        if (ml)
           precondition_in_double();
         else
           precondition_in_single();
@@ -121,7 +121,8 @@ namespace tetradapt::solve
       *coarse_space, fem::restrict_to(*coarse_space, space, model.constraints));
     const auto coarse = mechanics::assemble(*coarse_space, model.tangents, coarse_fixed);
     std::unique_ptr<FlatCorrection<Number>> flat_correction;
-    if (flat.exist)
+    // Bending of flat cells is lost in the rounding of single precision.
+    if (flat.exist && std::is_same_v<Number, double>)
       flat_correction = std::make_unique<FlatCorrection<Number>>(
         mechanics::assemble(space, model.tangents, fixed).matrix.rows(), space, fixed, flat, scale);
     return make_p_multigrid<Number>(
@@ -237,7 +238,6 @@ namespace tetradapt::solve
     limits.residual       = tolerance * norm;
     limits.error          = stop.algebraic_error;
     limits.relative_error = stop.relative_error;
-    limits.give_up_from   = can_factorise_instead() ? prediction_from : 0;
     LinearResult result{0, 0, 0., description};
     double       gained = 0.;
     // The residual's norm is ruled by stiff and by flat elements. So it may be small
@@ -245,8 +245,11 @@ namespace tetradapt::solve
     // smaller.
     for (double excess = 2.; excess > 1.;)
       {
-        limits.max_iterations = parameters.max_iterations - result.iterations; // in total
-        IterationResult step  = iterate_once(right_hand_side, limits, x);
+        limits.max_iterations  = parameters.max_iterations - result.iterations; // in total
+        const bool may_improve = has_better_preconditioner();
+        limits.most_predicted  = may_improve ? most_without_correction : limits.max_iterations;
+        limits.give_up_from    = may_improve || can_factorise_instead() ? prediction_from : 0;
+        IterationResult step   = iterate_once(right_hand_side, limits, x);
         result.iterations += step.iterations;
         result.iterations_to_residual
           = result.iterations + step.iterations_to_residual - step.iterations;
@@ -301,6 +304,12 @@ namespace tetradapt::solve
         result.preconditioned_residual = std::sqrt(std::max(0., residual * preconditioned));
       }
     return result;
+  }
+
+  bool
+  LinearSolver::has_better_preconditioner() const
+  {
+    return flat.exist && is_single;
   }
 
   bool

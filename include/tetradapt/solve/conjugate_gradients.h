@@ -71,8 +71,9 @@ namespace tetradapt::solve
     double       relative_error = 0.; ///< relative to all gains, the norm of x from zero on
     unsigned int max_iterations = 0;
     /** From this iteration on, end where the residual is predicted to need more than
-     * max_iterations; 0: go on to max_iterations in any case. */
-    unsigned int give_up_from = 0;
+     * most_predicted; 0: go on to max_iterations in any case. */
+    unsigned int give_up_from   = 0;
+    unsigned int most_predicted = 0;
   };
 
   struct IterationResult

@@ -113,6 +113,9 @@ namespace tetradapt::solve
                  const Vector          &x) const;
     [[noreturn]] void
     fail(unsigned int iterations, double excess) const;
+    /** Whether there are flat cells, and the preconditioner does not correct for them yet. */
+    bool
+    has_better_preconditioner() const;
     /** Whether a factorisation may replace conjugate gradients that do not converge. */
     bool
     can_factorise_instead() const;
