@@ -26,9 +26,10 @@ namespace tetradapt::solve
     /** Least energy of a solution by that of what was added to the first iterate. */
     constexpr double least_energy = 1e-12;
 
-    /** The iteration from which a prediction of the remaining ones counts. So early it may be
-     * wrong, as where bending is found late: that costs time, but no solution. */
-    constexpr unsigned int prediction_from = 40;
+    /** The iterations from which a prediction of the remaining ones counts: for the correction
+     * for flat cells, and for a factorisation. So early it may be wrong, as where bending is
+     * found late: that costs time, but no solution. */
+    constexpr unsigned int correction_from = 20, factorisation_from = 40;
 
     /** Predicted iterations above which the correction for flat cells is worth its set-up. */
     constexpr unsigned int most_without_correction = 100;
@@ -248,7 +249,9 @@ namespace tetradapt::solve
         limits.max_iterations  = parameters.max_iterations - result.iterations; // in total
         const bool may_improve = has_better_preconditioner();
         limits.most_predicted  = may_improve ? most_without_correction : limits.max_iterations;
-        limits.give_up_from    = may_improve || can_factorise_instead() ? prediction_from : 0;
+        limits.give_up_from    = may_improve               ? correction_from
+                                 : can_factorise_instead() ? factorisation_from
+                                                           : 0;
         IterationResult step   = iterate_once(right_hand_side, limits, x);
         result.iterations += step.iterations;
         result.iterations_to_residual
