@@ -253,8 +253,8 @@ namespace tetradapt::solve
   }
 
   std::unique_ptr<Preconditioner>
-  make_amg(const BlockRows<3, 3>                                           &rows,
-           const std::vector<NodeModes<3>>                                 &modes,
+  make_amg(const BlockRows<3, 3>                                            &rows,
+           const std::vector<NodeModes<3>>                                  &modes,
            const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &layout)
   {
     return std::make_unique<SmoothedAggregation<double>>(rows, modes, layout, 1.);
