@@ -85,7 +85,8 @@ namespace tetradapt::solve
         if (space.degree() == 2)
           flat = find_flat_nodes(space);
         const bool ml = parameters.multigrid == scene::SolverParameters::Multigrid::trilinos;
-        if (ml)
+        // Where cells are very flat, the plain cycle would be given up in any case.
+        if (ml || flat.are_very_flat)
           precondition_in_double();
         else
           precondition_in_single();
