@@ -19,8 +19,8 @@ namespace tetradapt::fem
    * mesh's boundary, is left to these.
    *
    * Derived from the base class of deal.II's own distributed triangulations, since
-   * parallel::fullydistributed::Triangulation is made from a description of the mesh that
-   * takes twice the time (doc/performance.md). The mesh is neither refined nor written by
+   * parallel::fullydistributed::Triangulation is made from a description of the mesh, which
+   * takes about twice the time. The mesh is neither refined nor written by
    * deal.II: TetGen makes the next one.
    */
   class Triangulation : public dealii::parallel::DistributedTriangulationBase<3>
