@@ -20,6 +20,8 @@ namespace tetradapt::solve
     /** Of the longest edge, in flat and in very flat cells. Columns of bricks are half an edge
      * apart. */
     constexpr double reach_by_edge = 0.2, reach_if_very_flat = 0.16;
+    /** Nodes of a cluster, about: its inverse is a dense matrix. */
+    constexpr std::size_t largest_cluster = 30;
     /** Around flat cells: others among them would hold the clusters like supports. */
     constexpr unsigned int rings = 3;
     /** Of all points, that have to be flat to be worth the effort; and that have to be rather
@@ -157,7 +159,8 @@ namespace tetradapt::solve
           continue;
         members.assign(1, seed);
         clusters.of_node[seed] = clusters.count;
-        for (std::size_t next = 0; next < members.size(); ++next)
+        for (std::size_t next = 0; next < members.size() && members.size() < largest_cluster;
+             ++next)
           for (std::size_t k = matrix.begin[members[next]]; k < matrix.begin[members[next] + 1];
                ++k)
             {

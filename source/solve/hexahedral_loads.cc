@@ -5,10 +5,8 @@
 #include "tetradapt/mechanics/volume_density.h"
 #include "tetradapt/mesh/hexahedral_field.h"
 
-#include <deal.II/base/function.h>
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/fe/mapping_q1.h>
-#include <deal.II/numerics/vector_tools.h>
+#include <deal.II/fe/fe.h>
 
 #include <algorithm>
 
@@ -290,26 +288,71 @@ namespace tetradapt::solve
         cell_forces.finish(current);
     }
 
-    /** A prescribed displacement for deal.II. */
-    class Prescribed : public dealii::Function<3>
+    /** Sets an entry of @p held to more than zero for each unknown that @p support holds: those on
+     * its sides, and what hanging ones among them depend on, which may lie on no such side.
+     * deal.II's interpolate_boundary_values() leaves the latter free. Collective. */
+    void
+    mark_held(const scene::SupportParameters &support, const HexahedralSpace &space, Vector &held)
     {
-    public:
-      explicit Prescribed(const scene::SupportParameters &support)
-        : Function<3>(3),
-          displacement(support.displacement, "Supports/" + support.name + "/Displacement")
-      {
-      }
-      void
-      vector_value(const Point<3> &point, dealii::Vector<double> &values) const override
-      {
-        const Tensor<1, 3> value = displacement(point);
-        for (unsigned int c = 0; c < 3; ++c)
-          values[c] = value[c];
-      }
+      const HexahedralForest &forest = space.forest();
+      const auto            selected = selected_patches(forest.grid(), "Supports/" + support.name);
+      HexahedralSpace::Dofs dofs;
+      held = 0.;
+      for (unsigned int c = 0; c < forest.cells().size(); ++c)
+        for (unsigned int side = 0; side < 6; ++side)
+          {
+            const unsigned int patch = forest.cells()[c].patches[side];
+            if (patch == HexahedralGrid::none || !selected[patch])
+              continue;
+            space.get_dofs(c, dofs);
+            for_side_nodes(space.degree() + 1, side, [&](unsigned int place, auto, auto) {
+              for (unsigned int i = 0; i < 3; ++i)
+                if (support.components[i])
+                  {
+                    const auto  dof     = dofs[3 * place + i];
+                    const auto *parents = space.hanging_nodes().get_constraint_entries(dof);
+                    if (parents == nullptr)
+                      held[dof] = 1.;
+                    else
+                      for (const auto &[parent, weight] : *parents)
+                        if (weight != 0.)
+                          held[parent] = 1.;
+                  }
+            });
+          }
+      // An unknown may be held here and owned elsewhere.
+      held.compress(dealii::VectorOperation::add);
+      held.update_ghost_values();
+    }
 
-    private:
-      core::VectorExpression displacement;
-    };
+    /** Gives the unknowns that are @p held and not constrained yet their displacement. */
+    void
+    prescribe(const HexahedralSpace        &space,
+              const Vector                 &held,
+              const core::VectorExpression &displacement,
+              Constraints                  &constraints)
+    {
+      const auto                                  &element = space.dof_handler().get_fe();
+      const auto                                  &points  = element.get_unit_support_points();
+      std::vector<dealii::types::global_dof_index> dofs(element.n_dofs_per_cell());
+      for (const auto &cell : space.dof_handler().active_cell_iterators())
+        if (cell->is_locally_owned() || cell->is_ghost())
+          {
+            cell->get_dof_indices(dofs);
+            const Point<3>     lower = cell->vertex(0);
+            const Tensor<1, 3> size  = cell->vertex(7) - lower;
+            for (unsigned int i = 0; i < dofs.size(); ++i)
+              if (held[dofs[i]] != 0. && !constraints.is_constrained(dofs[i]))
+                {
+                  Point<3> x = lower;
+                  for (unsigned int d = 0; d < 3; ++d)
+                    x[d] += points[i][d] * size[d];
+                  constraints.add_line(dofs[i]);
+                  constraints.set_inhomogeneity(
+                    dofs[i], displacement(x)[element.system_to_component_index(i).first]);
+                }
+          }
+    }
   } // namespace
 
   Constraints
@@ -317,21 +360,18 @@ namespace tetradapt::solve
                    const HexahedralSpace                       &space)
   {
     Constraints constraints = space.make_constraints();
-    // What is constrained already stays so.
+    Vector      held(space.dof_handler().locally_owned_dofs(),
+                constraints.get_local_lines(),
+                space.forest().communicator());
+    // What is constrained already stays so: the last of the supports gives the value.
     for (auto support = supports.rbegin(); support != supports.rend(); ++support)
       {
-        const Prescribed displacement(*support);
-        const auto selected = selected_patches(space.forest().grid(), "Supports/" + support->name);
-        std::map<dealii::types::boundary_id, const dealii::Function<3> *> functions;
-        for (unsigned int patch = 0; patch < selected.size(); ++patch)
-          if (selected[patch])
-            functions[patch + 1] = &displacement;
-        dealii::ComponentMask components(3, false);
-        for (unsigned int c = 0; c < 3; ++c)
-          components.set(c, support->components[c]);
-        if (!functions.empty() && components.n_selected_components(3) > 0)
-          dealii::VectorTools::interpolate_boundary_values(
-            dealii::MappingQ1<3>(), space.dof_handler(), functions, constraints, components);
+        mark_held(*support, space, held);
+        prescribe(space,
+                  held,
+                  core::VectorExpression(support->displacement,
+                                         "Supports/" + support->name + "/Displacement"),
+                  constraints);
       }
     constraints.close();
     return constraints;

@@ -129,7 +129,7 @@ namespace tetradapt::solve
       Vector          correction(level.stiffness->vector_layout());
       IterationLimits limits;
       limits.residual = rounding * std::max(forces.l2_norm(), inner.size);
-      if (!std::isfinite(limits.residual))
+      if (!std::isfinite(forces.l2_norm() + inner.size)) // a maximum may hide NaN
         throw core::NumericalError("The forces on the reference's hexahedra, or their squares, are "
                                    "not finite. Look at the loads, the supports and the material "
                                    "constants, or choose other units.");

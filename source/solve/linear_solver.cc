@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <type_traits>
 
@@ -223,10 +224,13 @@ namespace tetradapt::solve
                              const Vector          &right_hand_side,
                              const Vector          &x) const
   {
+    if (result.preconditioned_residual == 0.)
+      return 0.;
     const double energy = stop.energy ? stop.energy(x) : right_hand_side * x;
     // A body that moves as a whole has no energy but that of rounding.
-    return result.preconditioned_residual
-           / std::sqrt(std::max(energy, 0.) + least_energy * result.gained);
+    const double square = std::max(energy, 0.) + least_energy * result.gained;
+    return std::isfinite(energy + square) ? result.preconditioned_residual / std::sqrt(square)
+                                          : std::numeric_limits<double>::quiet_NaN();
   }
 
   LinearResult
@@ -279,6 +283,10 @@ namespace tetradapt::solve
         gained += step.gained;
         step.gained = gained;
         excess = hidden_error(step, stop, right_hand_side, x) / (error_by_residual * tolerance);
+        if (!std::isfinite(excess))
+          throw core::NumericalError(
+            "The energy of the solution is not finite: it leaves the range "
+            "of double precision. Choose other units.");
         limits.residual = std::min(limits.residual, step.residual) / std::max(2., 2. * excess);
       }
     return result;
@@ -298,6 +306,8 @@ namespace tetradapt::solve
       = conjugate_gradients(matrix(), *preconditioner, right_hand_side, control, x);
     IterationResult result = control.result();
     result.converged       = ending == Ending::converged;
+    if (ending == Ending::not_finite)
+      result.gained = 0.; // x is what it was
     if (result.iterations == 0 && result.residual > 0.)
       {
         // No step has told what the residual means for the error.
