@@ -141,7 +141,7 @@ namespace
   test_border(const unsigned int degree)
   {
     scene::Scene scene = l_shape();
-    scene.supports     = {support("floor", "z < 1e-9 && x < 1", "xyz", {{"1", "x", "2*y"}})};
+    scene.supports     = {support("floor", "z < 1e-9 && x < 1 + 1e-9", "xyz", {{"1", "x", "2*y"}})};
     const auto                   mesh = mesh_of(scene);
     const mechanics::MaterialMap materials(scene, *mesh);
     const auto                   grid = solve::make_hexahedral_grid(scene, *mesh, core::Log());
