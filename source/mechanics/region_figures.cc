@@ -52,7 +52,7 @@ namespace tetradapt::mechanics
                      const unsigned int                 cell,
                      const std::array<Tensor<1, 3>, 4> &directions)
     {
-      // Of the vertices on the diagonal, of the edges beside it.
+      // Of the vertices on the diagonal, of the edges next to it.
       std::array<std::array<Tensor<1, 3>, 4>, 4> values;
       for (unsigned int i = 0; i < 4; ++i)
         values[i][i] = u.values[u.node(cell, i)];

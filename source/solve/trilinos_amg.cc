@@ -53,7 +53,7 @@ namespace tetradapt::solve
             for (unsigned int j = 0; j < 3; ++j)
               {
                 const double value = matrix.block(k)[3 * (i % 3) + j];
-                if (value == 0.) // as beside a fixed unknown
+                if (value == 0.) // as next to a fixed unknown
                   continue;
                 columns.push_back(layout.local_to_global(3 * matrix.column(k) + j));
                 values.push_back(value);
