@@ -98,8 +98,8 @@ namespace
     for (unsigned int i = 0; i < 2; ++i)
       {
         scene.materials[i].name          = i == 0 ? "beam" : "tip";
-        scene.materials[i].young_modulus = i == 0 ? 1000. : 1000. * contrast;
-        scene.materials[i].poisson_ratio = nu;
+        scene.materials[i].constants["Young modulus"] = i == 0 ? 1000. : 1000. * contrast;
+        scene.materials[i].constants["Poisson ratio"] = nu;
       }
     scene.materials[1].regions = {1};
     scene.supports.resize(1);

@@ -84,14 +84,17 @@ namespace tetradapt::adapt
   } // namespace
 
   std::vector<Doubt>
-  doubts_about(const mesh::NodalField &displacement, MPI_Comm communicator)
+  doubts_about(const mesh::NodalField &displacement,
+               const scene::Scene     &scene,
+               MPI_Comm                communicator)
   {
     std::vector<Doubt> doubts;
     const auto         add = [&doubts](const Doubt &doubt) {
       if (!doubt.what.empty())
         doubts.push_back(doubt);
     };
-    add(doubt_of_linearity(compare::deformation(displacement, communicator)));
+    if (scene.formulation != scene::Formulation::finite_strain)
+      add(doubt_of_linearity(compare::deformation(displacement, communicator)));
     if (displacement.degree() == 1)
       add(doubt_of_thickness(displacement, communicator));
     return doubts;

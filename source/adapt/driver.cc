@@ -132,7 +132,9 @@ namespace tetradapt::adapt
              + describe_mesh(*mesh, current.record));
     if (number == 0)
       {
-        excluded = compare::ExcludedRegion(scene, *mesh);
+        // Large deformation has no errors to leave something out of.
+        if (materials->is_linear())
+          excluded = compare::ExcludedRegion(scene, *mesh);
         for (const auto &text : describe_left_out(left_out_of(excluded, *mesh)))
           log.info(text);
       }
@@ -241,7 +243,7 @@ namespace tetradapt::adapt
       log.detail(line);
     {
       const auto scope = timer.scope("estimate");
-      doubts           = doubts_about(*cycle.solution.displacement, communicator);
+      doubts           = doubts_about(*cycle.solution.displacement, scene, communicator);
       for (const Doubt &doubt : doubts_about_loads(cycle.record))
         doubts.push_back(doubt);
       for (const Doubt &doubt : doubts)
@@ -282,7 +284,7 @@ namespace tetradapt::adapt
                                  + std::string(advice));
     double modulus = 0.;
     for (const auto &material : scene.materials)
-      modulus = std::max(modulus, material.young_modulus);
+      modulus = std::max(modulus, material.moduli_at_rest().young_modulus);
     const auto   box    = mesh::bounding_box(*mesh);
     const double extent = (box.second - box.first).norm();
     // A body that moves as a whole has no energy; it would have this one if it were strained.

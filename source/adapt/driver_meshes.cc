@@ -225,10 +225,10 @@ namespace tetradapt::adapt
   void
   Driver::prepare_start(Cycle &cycle)
   {
-    // A small system is factorised, without a first iterate.
+    // A small linear system is factorised, without a first iterate.
     const auto scope = timer.scope("estimate");
     start.reset();
-    if (plan.needs(Plan::multigrid_solver))
+    if (plan.needs(Plan::multigrid_solver) || plan.needs(Plan::newton_method))
       start = std::make_unique<mesh::NodalField>(
         compare::interpolate(*cycle.solution.displacement, cycle.comparison->locator(), mesh));
   }

@@ -10,7 +10,6 @@
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/interrupt_watcher.h"
 #include "tetradapt/core/printable.h"
-#include "tetradapt/mechanics/constitutive_law.h"
 #include "tetradapt/report/log_sinks.h"
 #include "tetradapt/report/output_directory.h"
 #include "tetradapt/scene/plan.h"
@@ -311,7 +310,7 @@ namespace tetradapt::cli
       case Options::Action::print_parameters:
         {
           std::ostringstream text;
-          scene::print_parameters(text, options.format, mechanics::law_names());
+          scene::print_parameters(text, options.format);
           return print(text.str(), launch.first);
         }
       case Options::Action::validate:

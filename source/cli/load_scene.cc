@@ -2,9 +2,7 @@
 #include "tetradapt/cli/load_scene.h"
 
 #include "tetradapt/core/exceptions.h"
-#include "tetradapt/mechanics/constitutive_law.h"
 #include "tetradapt/report/output_directory.h"
-#include "tetradapt/scene/nearest_names.h"
 #include "tetradapt/scene/scene_reader.h"
 
 #include <algorithm>
@@ -14,20 +12,6 @@ namespace tetradapt::cli
 {
   namespace
   {
-    void
-    check_laws(const scene::Scene &scene, scene::Mistakes &mistakes)
-    {
-      const auto      laws = mechanics::law_names();
-      scene::Mistakes found;
-      for (const auto &material : scene.materials)
-        if (mistakes.readable("Materials/" + material.name))
-          found.require(std::find(laws.begin(), laws.end(), material.law) != laws.end(),
-                        "Materials/" + material.name + "/Law",
-                        "there is no law '" + material.law + "'. "
-                          + scene::suggest(material.law, laws));
-      mistakes.merge(found, [&](const auto &message) { return scene.with_place(message); });
-    }
-
     /** @p text as a part of a folder's name: other characters than letters, digits, '.', '_'
      * and '-' become one '-'. Long ones are cut; a number in front tells runs apart. */
     std::string
@@ -76,7 +60,6 @@ namespace tetradapt::cli
   {
     scene::Mistakes mistakes;
     scene::Scene    scene = scene::read_scene(file, options.settings, mistakes);
-    check_laws(scene, mistakes);
     if (!options.output_directory.empty())
       {
         scene.output.directory = options.output_directory;
@@ -121,7 +104,6 @@ namespace tetradapt::cli
         run.name = numbered(runs.size() + 1, n_runs, run.label);
         scene::Mistakes found;
         run.scene = scene::read_study_run(study.file, options.settings, cases, found);
-        check_laws(run.scene, found);
         mistakes.merge(found);
         run.scene.output.directory = directory + "/" + run.name;
         run.scene.title = (study.title.empty() ? study.name : study.title) + ": " + run.label;

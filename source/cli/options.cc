@@ -179,9 +179,9 @@ A scene with a subsection Study runs once for every combination of its values,
 each in a folder of its own, and ends with one table (study.csv) of all.
 In parallel: mpirun -np 2 tetradapt scene.prm
 
-What it does not do: materials other than linear elastic, large displacements
-or strains, contact, buckling, dynamics, plasticity or failure, shells, beams
-and elements other than tetrahedra.
+What it does not do: contact, follower pressures, error estimates for large
+deformation, dynamics, plasticity or failure, shells, beams and elements other
+than tetrahedra.
 
 Exit code: 0 all done; 1 a computation failed; 2 bad input (also if, with
 several scenes, a computation failed as well). Messages go to stderr, tables to

@@ -70,7 +70,7 @@ namespace tetradapt::compare
           const mechanics::EnergyDensity density(materials, mesh.regions[cell]);
           const double                   volume = mesh::cell_volume(mesh, cell);
           const auto                     h      = heights(mesh, cell);
-          const double mu     = mechanics::shear_modulus(materials.law(mesh.regions[cell]));
+          const double mu     = laws::shear_modulus(materials.linear_law(mesh.regions[cell]));
           double       energy = 0.;
           for (unsigned int q = 0; q < rule.points.size(); ++q)
             {
@@ -92,7 +92,7 @@ namespace tetradapt::compare
               sums[4] += weight * G.norm_square();
               sums[6] += 2. * mu * weight * G.norm_square();
               sums[5]
-                += weight * materials.law(mesh.regions[cell]).energy_density(symmetrize(G - free));
+                += weight * materials.linear_law(mesh.regions[cell]).energy_density(symmetrize(G - free));
             }
           result.cell_energy[cell] = std::sqrt(std::max(energy, 0.));
           sums[2] += energy;

@@ -43,7 +43,7 @@ namespace tetradapt::compare
       energy(const unsigned int new_cell)
       {
         cell = new_cell;
-        law  = &materials.law(mesh.regions[cell]);
+        law  = &materials.linear_law(mesh.regions[cell]);
         sum  = 0.;
         Part   whole;
         double longest = 0.;
@@ -144,7 +144,7 @@ namespace tetradapt::compare
       const mesh::HexahedralField      &reference;
       const mechanics::MaterialMap     &materials;
       unsigned int                      cell = 0;
-      const mechanics::ConstitutiveLaw *law  = nullptr;
+      const laws::LinearLaw *law  = nullptr;
       double                            sum  = 0.;
     };
   } // namespace

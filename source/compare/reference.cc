@@ -309,7 +309,7 @@ namespace tetradapt::compare
         degree         = run.displacement->degree();
         values         = run.displacement->values;
         for (const int region : mesh.regions)
-          materials.law(region); // throws for one without material
+          materials.linear_law(region); // throws for one without material
       });
       const auto field = share(std::move(mesh), degree, std::move(values), {}, communicator);
       Reference  reference;

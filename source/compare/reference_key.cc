@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/compare/reference_key.h"
+#include "tetradapt/laws/law_catalogue.h"
 
 #include "tetradapt/compare/fingerprint.h"
 #include "tetradapt/core/exceptions.h"
@@ -94,8 +95,8 @@ namespace tetradapt::compare
           text.list("regions", material.regions);
           text.list("groups", material.region_groups);
           text("law", material.law);
-          text("E", material.young_modulus);
-          text("nu", material.poisson_ratio);
+          for (const auto &[name, value] : laws::values_of(material.law, material.constants))
+            text(name.c_str(), value);
           text("density", material.density);
           text("expansion", material.thermal_expansion);
         }

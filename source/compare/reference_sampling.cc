@@ -70,7 +70,7 @@ namespace tetradapt::compare
       {
         const mechanics::EnergyDensity density(material_map, mesh.regions[cell]);
         const double                   volume = mesh::cell_volume(mesh, cell);
-        const double mu = mechanics::shear_modulus(material_map.law(mesh.regions[cell]));
+        const double mu = laws::shear_modulus(material_map.linear_law(mesh.regions[cell]));
         for (unsigned int q = 0; q < for_values.points.size(); ++q)
           sums[0] += volume * for_values.weights[q]
                      * evaluator.value(cell, for_values.points[q]).norm_square();
@@ -104,10 +104,10 @@ namespace tetradapt::compare
     const dealii::QGauss<3>      gauss(u.degree() + 1);
     for (unsigned int cell = slice.begin; cell < slice.end; ++cell)
       {
-        const auto  &law    = material_map.law(u.cells()[cell].region);
+        const auto  &law    = material_map.linear_law(u.cells()[cell].region);
         const auto  &size   = u.cells()[cell].size;
         const double volume = size[0] * size[1] * size[2];
-        const double mu     = mechanics::shear_modulus(law);
+        const double mu     = laws::shear_modulus(law);
         for (unsigned int q = 0; q < gauss.size(); ++q)
           {
             const double weight   = volume * gauss.weight(q);

@@ -14,9 +14,9 @@ namespace tetradapt::estimate
     constexpr unsigned int pairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
   }
 
-  ElasticMatrices::ElasticMatrices(const mechanics::ConstitutiveLaw &law)
+  ElasticMatrices::ElasticMatrices(const laws::LinearLaw &law)
   {
-    const auto                 C = law.tangent(Tensor<2, 3>());
+    const auto                 C = law.tangent_at_rest();
     dealii::FullMatrix<double> inverse(6, 6);
     for (unsigned int a = 0; a < 6; ++a)
       for (unsigned int b = 0; b < 6; ++b)
@@ -31,8 +31,8 @@ namespace tetradapt::estimate
     shear_modulus = (stiffness[3][3] + stiffness[4][4] + stiffness[5][5]) / 3.;
   }
 
-  ElasticMatrices::ElasticMatrices(const mechanics::ConstitutiveLaw &law,
-                                   const mechanics::PressureForm    &form)
+  ElasticMatrices::ElasticMatrices(const laws::LinearLaw &law,
+                                   const laws::PressureForm    &form)
     : shear_modulus(form.shear_modulus)
   {
     const double mu   = form.shear_modulus;
@@ -67,9 +67,9 @@ namespace tetradapt::estimate
           }
         const auto found = of_region.emplace(region, matrices.size());
         if (found.second && materials.is_mixed())
-          matrices.emplace_back(materials.law(region), materials.pressure_form(region));
+          matrices.emplace_back(materials.linear_law(region), materials.pressure_form(region));
         else if (found.second)
-          matrices.emplace_back(materials.law(region));
+          matrices.emplace_back(materials.linear_law(region));
         index[cell] = found.first->second;
       }
   }

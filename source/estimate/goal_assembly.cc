@@ -40,7 +40,7 @@ namespace tetradapt::estimate
   {
     const mesh::TetMesh &mesh   = field.mesh();
     const int            region = mesh.regions[cell];
-    const Tensor<2, 3>   dual(materials.law(region).stress(Tensor<2, 3>(S))); // C : S
+    const Tensor<2, 3>   dual(materials.linear_law(region).stress(Tensor<2, 3>(S))); // C : S
     const auto           directions = mesh::barycentric_gradients(mesh, cell);
     Tensor<1, 3>         gradients[10];
     mesh::shape_gradients(field.degree(), b, directions, gradients);

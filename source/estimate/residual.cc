@@ -125,7 +125,7 @@ namespace tetradapt::estimate
                  const mechanics::MaterialMap &materials)
       {
         const int                     region    = mesh.regions[cell];
-        const mechanics::PressureForm form      = materials.pressure_form(region);
+        const laws::PressureForm form      = materials.pressure_form(region);
         const auto                   &rule      = compare::tet_quadrature(2);
         const auto                    gradients = compare::vertex_gradients(u_h, cell);
         double                        sum       = 0.;

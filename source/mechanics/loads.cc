@@ -46,7 +46,7 @@ namespace tetradapt::mechanics
       }
 
       NodalLoads
-      all()
+      all(const mesh::NodalField *deformation)
       {
         NodalLoads result;
         result.forces.resize(space.n_field_nodes());
@@ -61,7 +61,7 @@ namespace tetradapt::mechanics
                   {
                     const unsigned int field_node = space.field_node(node);
                     result.forces[field_node] += forces[field_node];
-                    total.resultant.add(position(field_node), forces[field_node]);
+                    total.resultant.add(position(field_node, deformation), forces[field_node]);
                   }
                 total.resultant = sum(total.resultant, space.communicator());
               }
@@ -234,7 +234,7 @@ namespace tetradapt::mechanics
                 total.magnitude += mine ? volume * point.weight * std::abs(point.value[0]) : 0.;
                 // Force of the stress that would hold the thermal strain back.
                 const Tensor<2, 3> strain(point.value[0] * dealii::unit_symmetric_tensor<3>());
-                const SymmetricTensor<2, 3> stress = materials.law(region).stress(strain);
+                const SymmetricTensor<2, 3> stress = materials.linear_law(region).stress(strain);
                 // Gradients are linear: their means are the values at the centroid.
                 mesh::shape_gradients(space.degree(), point.b, directions, gradients.data());
                 for (unsigned int i = 0; i < space.n_nodes_per_cell(); ++i)
@@ -246,8 +246,10 @@ namespace tetradapt::mechanics
       }
 
       Point<3>
-      position(const unsigned int node) const
+      position(const unsigned int node, const mesh::NodalField *deformation) const
       {
+        if (deformation != nullptr)
+          return deformation->node_position(node) + deformation->values[node];
         if (node < mesh.n_points())
           return mesh.points[node];
         const auto &edge = space.edge_table()->edges[node - mesh.n_points()];
@@ -266,8 +268,11 @@ namespace tetradapt::mechanics
   } // namespace
 
   NodalLoads
-  assemble_loads(const scene::Scene &scene, const MaterialMap &materials, const fem::Space &space)
+  assemble_loads(const scene::Scene     &scene,
+                 const MaterialMap      &materials,
+                 const fem::Space       &space,
+                 const mesh::NodalField *deformation)
   {
-    return Assembly(scene, materials, space).all();
+    return Assembly(scene, materials, space).all(deformation);
   }
 } // namespace tetradapt::mechanics

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/mechanics/material_map.h"
+#include "tetradapt/laws/law_catalogue.h"
 
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/mechanics/volume_density.h"
@@ -105,6 +106,23 @@ namespace tetradapt::mechanics
     return result;
   }
 
+  namespace
+  {
+    /** @throws core::InputError if the law is not for @p formulation. */
+    std::shared_ptr<ConstitutiveLaw>
+    law_of(const scene::MaterialParameters &parameters, const scene::Formulation formulation)
+    {
+      std::shared_ptr<ConstitutiveLaw> law
+        = laws::make_law(parameters.law, parameters.constants);
+      if (!law->supports(formulation)
+          || (formulation != scene::Formulation::finite_strain
+              && dynamic_cast<const LinearLaw *>(law.get()) == nullptr))
+        throw core::InputError("Materials/" + parameters.name + "/Law: the law '" + parameters.law
+                               + "' is not for the scene's Formulation.");
+      return law;
+    }
+  } // namespace
+
   MaterialMap::MaterialMap(const scene::Scene &scene, const mesh::TetMesh &mesh)
     : materials(scene.materials),
       temperatures(std::make_shared<VolumeDensity>(mesh::bounding_box(mesh))),
@@ -127,14 +145,13 @@ namespace tetradapt::mechanics
                                    "others leave. Give one of them Regions or Region groups.");
         if (everywhere)
           rest = material;
-        const std::shared_ptr<ConstitutiveLaw> law = make_law(*material);
-        require_linear(*law, *material);
+        const std::shared_ptr<ConstitutiveLaw> law = law_of(*material, scene.formulation);
         for (const int region : resolve_regions(
                material->regions, material->region_groups, mesh, "Materials/" + material->name))
           {
             const auto existing = entries.find(region);
             if (existing == entries.end())
-              entries[region] = Entry{material, law};
+              entries[region] = Entry{material, law, dynamic_cast<const LinearLaw *>(law.get())};
             else if (!everywhere)
               throw core::InputError("Region " + std::to_string(region)
                                      + " is given two materials, Materials/"
@@ -204,6 +221,26 @@ namespace tetradapt::mechanics
     return *entry(region).law;
   }
 
+  const LinearLaw &
+  MaterialMap::linear_law(int region) const
+  {
+    const Entry &found = entry(region);
+    if (found.linear == nullptr)
+      throw core::InputError("Materials/" + found.parameters->name + "/Law: '"
+                             + found.parameters->law
+                             + "' is not linear, and something that the scene asks for is for "
+                               "linear laws only.");
+    return *found.linear;
+  }
+
+  bool
+  MaterialMap::is_linear() const
+  {
+    return std::all_of(entries.begin(), entries.end(), [](const auto &entry) {
+      return entry.second.linear != nullptr;
+    });
+  }
+
   const scene::MaterialParameters &
   MaterialMap::parameters(int region) const
   {
@@ -213,7 +250,7 @@ namespace tetradapt::mechanics
   PressureForm
   MaterialMap::pressure_form(int region) const
   {
-    const auto form = law(region).pressure_form();
+    const auto form = linear_law(region).pressure_form();
     if (!form)
       throw core::InputError("Materials/" + parameters(region).name
                              + "/Poisson ratio: must be positive with Formulation = mixed, which "

@@ -10,11 +10,14 @@ namespace tetradapt::mechanics
   namespace
   {
     TangentForm
-    form_of(bool isotropic, bool one_tangent)
+    form_of(const TangentField &tangents)
     {
-      return isotropic     ? TangentForm::isotropic
-             : one_tangent ? TangentForm::one_per_cell
-                           : TangentForm::four_per_cell;
+      const bool one = tangents.points_per_cell() == 1;
+      if (tangents.is_full())
+        return one ? TangentForm::full_per_cell : TangentForm::full_per_point;
+      return tangents.is_isotropic() ? TangentForm::isotropic
+             : one                   ? TangentForm::one_per_cell
+                                     : TangentForm::four_per_cell;
     }
 
     /** Writes the tangents of a cell, times @p weight, to every W-th entry of @p to. */
@@ -33,6 +36,15 @@ namespace tetradapt::mechanics
         }
       for (unsigned int q = 0; q < tangents.points_per_cell(); ++q)
         {
+          if (tangents.is_full())
+            {
+              for (const double entry : tangents.full(cell, q))
+                {
+                  *to = weight * entry;
+                  to += W;
+                }
+              continue;
+            }
           const VoigtMatrix &D = tangents.at(cell, q);
           for (unsigned int i = 0; i < 6; ++i)
             for (unsigned int j = i; j < 6; ++j, to += W)
@@ -46,8 +58,7 @@ namespace tetradapt::mechanics
                                                    const TangentField       &tangents,
                                                    const fem::FixedUnknowns &fixed,
                                                    const double              scale)
-    : space(space), fixed(fixed), isotropic(tangents.is_isotropic()),
-      one_tangent(tangents.points_per_cell() == 1)
+    : space(space), fixed(fixed), form(form_of(tangents))
   {
     store_cells(tangents, scale);
     compute_diagonal();
@@ -58,7 +69,6 @@ namespace tetradapt::mechanics
   MatrixFreeStiffness<Number>::store_cells(const TangentField &tangents, const double scale)
   {
     constexpr unsigned int    W     = stiffness_lanes<Number>;
-    const TangentForm         form  = form_of(isotropic, one_tangent);
     const unsigned int        size  = tangent_size(form);
     std::vector<unsigned int> cells = space.touching_cells();
     const auto first_with_ghosts = std::stable_partition(cells.begin(), cells.end(), [&](auto c) {
@@ -106,7 +116,7 @@ namespace tetradapt::mechanics
                                    at_end.data(),
                                    gradients.data(),
                                    tangent_values.data(),
-                                   form_of(isotropic, one_tangent)},
+                                   form},
                                   0,
                                   n_batches,
                                   blocks.data()->data());
@@ -134,7 +144,7 @@ namespace tetradapt::mechanics
                              at_end.data(),
                              gradients.data(),
                              tangent_values.data(),
-                             form_of(isotropic, one_tangent)},
+                             form},
                             begin,
                             end,
                             x,

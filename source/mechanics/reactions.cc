@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/mechanics/reactions.h"
 
+#include "stiffness_points.h"
+
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -11,23 +13,6 @@ namespace tetradapt::mechanics
   namespace
   {
     using dealii::Point;
-
-    /** Barycentric coordinates of the rule with which the stiffness is integrated, whose points
-     * weigh the same: exact for the product of a stress and a gradient of shape functions. */
-    std::vector<mesh::Barycentric>
-    stiffness_points(const unsigned int degree)
-    {
-      if (degree == 1)
-        return {mesh::Barycentric{{.25, .25, .25, .25}}};
-      const double                   root = std::sqrt(5.);
-      std::vector<mesh::Barycentric> points(4);
-      for (unsigned int q = 0; q < 4; ++q)
-        {
-          points[q].fill((5. - root) / 20.);
-          points[q][q] = (5. + 3. * root) / 20.;
-        }
-      return points;
-    }
 
     /** Adds up what the cells at supports do to the nodes there. */
     class SupportedCells
@@ -112,7 +97,7 @@ namespace tetradapt::mechanics
             layer_energy[c]
               += weight
                  * (displacement.pressure ? materials.pressure_form(region).stress(G, 0.) * strain
-                                          : materials.law(region).energy_density(strain));
+                                          : materials.linear_law(region).energy_density(strain));
           }
       }
 
@@ -125,7 +110,7 @@ namespace tetradapt::mechanics
         return displacement.pressure
                  ? materials.pressure_form(region).stress(G,
                                                           displacement.pressure->value(cell, point))
-                 : materials.law(region).stress(G);
+                 : materials.linear_law(region).stress(G);
       }
 
       bool
@@ -160,11 +145,15 @@ namespace tetradapt::mechanics
                     const MaterialMap                       &materials,
                     const PrescribedDisplacement            &prescribed,
                     const std::vector<dealii::Tensor<1, 3>> &forces,
+                    const std::vector<dealii::Tensor<1, 3>> *internal_forces,
                     const mesh::NodalField                  &displacement,
                     const unsigned int                       n_supports,
                     const bool                               with_layer_energy)
   {
-    const SupportedCells  cells(space, materials, prescribed, displacement, with_layer_energy);
+    std::unique_ptr<const SupportedCells> cells;
+    if (internal_forces == nullptr)
+      cells = std::make_unique<const SupportedCells>(
+        space, materials, prescribed, displacement, with_layer_energy);
     std::vector<HeldNode> held;
     std::copy_if(prescribed.held_nodes.begin(),
                  prescribed.held_nodes.end(),
@@ -186,12 +175,16 @@ namespace tetradapt::mechanics
         const unsigned int node = begin->node;
         const auto         end
           = std::find_if(begin, held.cend(), [&](const HeldNode &h) { return h.node != node; });
-        Tensor<1, 3> reaction = cells.forces[space.local_node(node)] - forces[node];
+        Tensor<1, 3> reaction
+          = (cells ? cells->forces[space.local_node(node)] : (*internal_forces)[node])
+            - forces[node];
         for (unsigned int c = 0; c < 3; ++c)
           if (!prescribed.is_fixed(node, c))
             reaction[c] = 0.;
         result.magnitude += reaction.norm();
-        const Point<3> x = displacement.node_position(node);
+        Point<3> x = displacement.node_position(node);
+        if (internal_forces != nullptr)
+          x += displacement.values[node];
         for (auto h = begin; h != end; ++h)
           {
             Tensor<1, 3> part;
@@ -205,9 +198,9 @@ namespace tetradapt::mechanics
     for (Resultant &support : result.supports)
       support = sum(support, space.communicator());
     result.magnitude = dealii::Utilities::MPI::sum(result.magnitude, space.communicator());
-    for (unsigned int c = 0; c < 3; ++c)
+    for (unsigned int c = 0; cells && c < 3; ++c)
       result.layer_energy[c]
-        = dealii::Utilities::MPI::sum(cells.layer_energy[c], space.communicator());
+        = dealii::Utilities::MPI::sum(cells->layer_energy[c], space.communicator());
     return result;
   }
 } // namespace tetradapt::mechanics

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/mechanics/region_figures.h"
 
+#include "tetradapt/mechanics/cauchy_stress.h"
+
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -104,7 +106,7 @@ namespace tetradapt::mechanics
             for (unsigned int i = 0; i < 4; ++i)
               G += outer_product(u.values[u.mesh().cells[cell][i]], directions[i]);
             return {
-              von_mises(law->stress(thermal ? G - Tensor<2, 3>(mean_thermal_strain(cell)) : G)), 4};
+              von_mises(stress(thermal ? G - Tensor<2, 3>(mean_thermal_strain(cell)) : G)), 4};
           }
         auto                  gradients = corner_gradients(u, cell, directions);
         std::array<double, 4> values; // squares first: one root a cell is enough
@@ -146,15 +148,19 @@ namespace tetradapt::mechanics
           return;
         region = number;
         law    = &materials.law(region);
+        linear = materials.is_linear() ? &materials.linear_law(region) : nullptr;
         mixed  = u.pressure != nullptr;
-        form   = mixed ? materials.pressure_form(region) : law->pressure_form();
+        if (linear != nullptr)
+          form = mixed ? materials.pressure_form(region) : linear->pressure_form();
       }
 
       SymmetricTensor<2, 3>
       stress(const Tensor<2, 3> &gradient) const
       {
         // A pressure has no part in the deviator.
-        return mixed ? form->stress(gradient, 0.) : law->stress(gradient);
+        if (mixed && form)
+          return form->stress(gradient, 0.);
+        return linear != nullptr ? linear->stress(gradient) : cauchy_stress(*law, gradient);
       }
 
       /** The square of the von Mises stress. */
@@ -197,6 +203,7 @@ namespace tetradapt::mechanics
       bool                        thermal, mixed = false;
       int                         region = 0;
       const ConstitutiveLaw      *law    = nullptr;
+      const LinearLaw            *linear = nullptr; ///< the same; null for another law
       std::optional<PressureForm> form; ///< of the law, if it has one
     };
 

@@ -1,24 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/mechanics/stiffness.h"
 
+#include "stiffness_points.h"
+
 namespace tetradapt::mechanics
 {
   namespace
   {
-    /** Barycentric points of the stiffness quadrature; equal weights. */
-    std::vector<mesh::Barycentric>
-    stiffness_points(unsigned int degree)
-    {
-      if (degree == 1)
-        return {{{0.25, 0.25, 0.25, 0.25}}};
-      // The four-point rule of degree 2 (Hammer and Stroud 1956).
-      const double                   a = 0.58541019662496845446, b = 0.13819660112501051518;
-      std::vector<mesh::Barycentric> points(4, {{b, b, b, b}});
-      for (unsigned int i = 0; i < 4; ++i)
-        points[i][i] = a;
-      return points;
-    }
-
     /** Upper triangle (a <= b) of the cell's node-to-node blocks. */
     template <unsigned int n>
     class CellStiffness
@@ -38,11 +26,13 @@ namespace tetradapt::mechanics
           {
             std::array<Tensor<1, 3>, n> g;
             mesh::shape_gradients(degree, points[q], directions, g.data());
-            if (points.size() == tangents.points_per_cell() || tangents.points_per_cell() == 1)
-              add_point(g, tangents.at(cell, q), weight);
-            else
-              for (unsigned int p = 0; p < 4; ++p)
-                add_point(g, tangents.at(cell, p), 0.25 * weight);
+            const bool has_one
+              = points.size() == tangents.points_per_cell() || tangents.points_per_cell() == 1;
+            for (unsigned int p = has_one ? q : 0; p < (has_one ? q + 1 : 4); ++p)
+              if (tangents.is_full())
+                add_full_point(g, tangents.full(cell, p), has_one ? weight : 0.25 * weight);
+              else
+                add_point(g, tangents.at(cell, p), has_one ? weight : 0.25 * weight);
           }
       }
 
@@ -78,6 +68,33 @@ namespace tetradapt::mechanics
                     K[6 + c] += z * DB[2][c] + y * DB[3][c] + x * DB[4][c];
                   }
               }
+          }
+      }
+
+      /** K_ab(i, k) = g_a(J) A_iJkL g_b(L) */
+      void
+      add_full_point(const std::array<Tensor<1, 3>, n> &g,
+                     const laws::Tangent           &A,
+                     const double                       weight)
+      {
+        double       full[9][9];
+        unsigned int place = 0;
+        for (unsigned int a = 0; a < 9; ++a)
+          for (unsigned int b = a; b < 9; ++b, ++place)
+            full[a][b] = full[b][a] = weight * A[place];
+        for (unsigned int b = 0; b < n; ++b)
+          {
+            double Ag[9][3]; // A_iJkL g_b(L)
+            for (unsigned int a = 0; a < 9; ++a)
+              for (unsigned int k = 0; k < 3; ++k)
+                Ag[a][k] = full[a][3 * k] * g[b][0] + full[a][3 * k + 1] * g[b][1]
+                           + full[a][3 * k + 2] * g[b][2];
+            for (unsigned int a = 0; a <= b; ++a)
+              for (unsigned int i = 0; i < 3; ++i)
+                for (unsigned int k = 0; k < 3; ++k)
+                  blocks[a * n + b][3 * i + k] += g[a][0] * Ag[3 * i][k]
+                                                  + g[a][1] * Ag[3 * i + 1][k]
+                                                  + g[a][2] * Ag[3 * i + 2][k];
           }
       }
 

@@ -15,38 +15,51 @@ namespace tetradapt::mechanics
     // itself for i = j.
     constexpr unsigned int pair[4][4] = {{0, 4, 6, 7}, {4, 1, 5, 8}, {6, 5, 2, 9}, {7, 8, 9, 3}};
 
-    /** Stress (xx, yy, zz, yz, xz, xy), times the weight, of the displacement gradient
+    /** The stress, row by row and times the weight, of the displacement gradient
      * G (row: component) in one lane. */
     template <typename Number, TangentForm form>
     struct Stress;
+
+    /** The nine numbers of the symmetric stress (xx, yy, zz, yz, xz, xy). */
+    template <typename Number>
+    TETRADAPT_INLINE void
+    to_rows(const Number *s, Number *rows)
+    {
+      rows[0] = s[0];
+      rows[4] = s[1];
+      rows[8] = s[2];
+      rows[5] = rows[7] = s[3];
+      rows[2] = rows[6] = s[4];
+      rows[1] = rows[3] = s[5];
+    }
 
     template <typename Number>
     struct Stress<Number, TangentForm::isotropic>
     {
       static TETRADAPT_INLINE void
-      compute(const Number *tangent, unsigned int, const Number *G, Number *s)
+      compute(const Number *tangent, unsigned int, const Number *G, Number *rows)
       {
         constexpr unsigned int W      = stiffness_lanes<Number>;
         const Number           lambda = tangent[0], mu = tangent[W];
         const Number           p = lambda * (G[0] + G[4] + G[8]), mu2 = mu + mu;
-        s[0] = p + mu2 * G[0];
-        s[1] = p + mu2 * G[4];
-        s[2] = p + mu2 * G[8];
-        s[3] = mu * (G[5] + G[7]);
-        s[4] = mu * (G[2] + G[6]);
-        s[5] = mu * (G[1] + G[3]);
+        const Number           s[6] = {p + mu2 * G[0],
+                                       p + mu2 * G[4],
+                                       p + mu2 * G[8],
+                                       mu * (G[5] + G[7]),
+                                       mu * (G[2] + G[6]),
+                                       mu * (G[1] + G[3])};
+        to_rows(s, rows);
       }
     };
 
     template <typename Number>
     TETRADAPT_INLINE void
-    general_stress(const Number *D, const Number *G, Number *s)
+    general_stress(const Number *D, const Number *G, Number *rows)
     {
       constexpr unsigned int W    = stiffness_lanes<Number>;
       const Number           e[6] = {G[0], G[4], G[8], G[5] + G[7], G[2] + G[6], G[1] + G[3]};
-      for (unsigned int i = 0; i < 6; ++i)
-        s[i] = 0;
-      unsigned int k = 0;
+      Number                 s[6] = {0, 0, 0, 0, 0, 0};
+      unsigned int           k    = 0;
 #pragma GCC unroll 6
       for (unsigned int i = 0; i < 6; ++i)
 #pragma GCC unroll 6
@@ -55,6 +68,28 @@ namespace tetradapt::mechanics
             s[i] += D[k * W] * e[j];
             if (i != j)
               s[j] += D[k * W] * e[i];
+          }
+      to_rows(s, rows);
+    }
+
+    /** P = A : G with the upper triangle of A. */
+    template <typename Number>
+    TETRADAPT_INLINE void
+    full_stress(const Number *A, const Number *G, Number *rows)
+    {
+      constexpr unsigned int W = stiffness_lanes<Number>;
+#pragma GCC unroll 9
+      for (unsigned int i = 0; i < 9; ++i)
+        rows[i] = 0;
+      unsigned int k = 0;
+#pragma GCC unroll 9
+      for (unsigned int i = 0; i < 9; ++i)
+#pragma GCC unroll 9
+        for (unsigned int j = i; j < 9; ++j, ++k)
+          {
+            rows[i] += A[k * W] * G[j];
+            if (i != j)
+              rows[j] += A[k * W] * G[i];
           }
     }
 
@@ -75,6 +110,26 @@ namespace tetradapt::mechanics
       compute(const Number *tangent, unsigned int q, const Number *G, Number *s)
       {
         general_stress(tangent + 21 * q * stiffness_lanes<Number>, G, s);
+      }
+    };
+
+    template <typename Number>
+    struct Stress<Number, TangentForm::full_per_cell>
+    {
+      static TETRADAPT_INLINE void
+      compute(const Number *tangent, unsigned int, const Number *G, Number *rows)
+      {
+        full_stress(tangent, G, rows);
+      }
+    };
+
+    template <typename Number>
+    struct Stress<Number, TangentForm::full_per_point>
+    {
+      static TETRADAPT_INLINE void
+      compute(const Number *tangent, unsigned int q, const Number *G, Number *rows)
+      {
+        full_stress(tangent + 45 * q * stiffness_lanes<Number>, G, rows);
       }
     };
 
@@ -120,7 +175,7 @@ namespace tetradapt::mechanics
 #pragma GCC unroll 4
           for (unsigned int q = 0; q < 4; ++q)
             {
-              Number G[9], s[6];
+              Number G[9], s[9];
 #pragma GCC unroll 3
               for (unsigned int c = 0; c < 3; ++c)
                 {
@@ -133,16 +188,14 @@ namespace tetradapt::mechanics
                     G[3 * c + x] = d1 * g[x] + d2 * g[3 + x] + d3 * g[6 + x];
                 }
               Stress<Number, form>::compute(tangents + l, q, G, s);
-              const Number sigma[3][3]
-                = {{s[0], s[5], s[4]}, {s[5], s[1], s[3]}, {s[4], s[3], s[2]}};
 #pragma GCC unroll 3
               for (unsigned int c = 0; c < 3; ++c)
                 {
                   Number t[4];
 #pragma GCC unroll 3
                   for (unsigned int i = 0; i < 3; ++i)
-                    t[i + 1] = sigma[c][0] * g[3 * i] + sigma[c][1] * g[3 * i + 1]
-                               + sigma[c][2] * g[3 * i + 2];
+                    t[i + 1] = s[3 * c] * g[3 * i] + s[3 * c + 1] * g[3 * i + 1]
+                               + s[3 * c + 2] * g[3 * i + 2];
                   t[0] = -(t[1] + t[2] + t[3]);
 #pragma GCC unroll 4
                   for (unsigned int i = 0; i < 4; ++i)
@@ -240,14 +293,14 @@ namespace tetradapt::mechanics
 #pragma GCC unroll 3
               for (unsigned int c = 0; c < 3; ++c)
                 {
-                  Number G[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0}, s[6];
+                  Number G[9] = {0, 0, 0, 0, 0, 0, 0, 0, 0}, s[9];
 #pragma GCC unroll 3
                   for (unsigned int x = 0; x < 3; ++x)
                     G[3 * c + x] = h[x];
                   Stress<Number, form>::compute(tangents + l, q, G, s);
-                  sum[c] += s[0] * h[0] + s[5] * h[1] + s[4] * h[2];
-                  sum[3 + c] += s[5] * h[0] + s[1] * h[1] + s[3] * h[2];
-                  sum[6 + c] += s[4] * h[0] + s[3] * h[1] + s[2] * h[2];
+                  sum[c] += s[0] * h[0] + s[1] * h[1] + s[2] * h[2];
+                  sum[3 + c] += s[3] * h[0] + s[4] * h[1] + s[5] * h[2];
+                  sum[6 + c] += s[6] * h[0] + s[7] * h[1] + s[8] * h[2];
                 }
             }
 #pragma GCC unroll 9
@@ -299,9 +352,13 @@ namespace tetradapt::mechanics
     TETRADAPT_KERNELS(double, isotropic)
     TETRADAPT_KERNELS(double, one_per_cell)
     TETRADAPT_KERNELS(double, four_per_cell)
+    TETRADAPT_KERNELS(double, full_per_cell)
+    TETRADAPT_KERNELS(double, full_per_point)
     TETRADAPT_KERNELS(float, isotropic)
     TETRADAPT_KERNELS(float, one_per_cell)
     TETRADAPT_KERNELS(float, four_per_cell)
+    TETRADAPT_KERNELS(float, full_per_cell)
+    TETRADAPT_KERNELS(float, full_per_point)
   } // namespace
 
 #define TETRADAPT_DISPATCH(Number)                                                                 \
@@ -316,8 +373,12 @@ namespace tetradapt::mechanics
       apply_##Number##_isotropic(b, begin, end, x, y);                                             \
     else if (b.form == TangentForm::one_per_cell)                                                  \
       apply_##Number##_one_per_cell(b, begin, end, x, y);                                          \
-    else                                                                                           \
+    else if (b.form == TangentForm::four_per_cell)                                                 \
       apply_##Number##_four_per_cell(b, begin, end, x, y);                                         \
+    else if (b.form == TangentForm::full_per_cell)                                                 \
+      apply_##Number##_full_per_cell(b, begin, end, x, y);                                         \
+    else                                                                                           \
+      apply_##Number##_full_per_point(b, begin, end, x, y);                                        \
   }                                                                                                \
   template <>                                                                                      \
   void add_diagonal_blocks(const StiffnessBatches<Number> &b,                                      \
@@ -329,8 +390,12 @@ namespace tetradapt::mechanics
       blocks_##Number##_isotropic(b, begin, end, to);                                              \
     else if (b.form == TangentForm::one_per_cell)                                                  \
       blocks_##Number##_one_per_cell(b, begin, end, to);                                           \
-    else                                                                                           \
+    else if (b.form == TangentForm::four_per_cell)                                                 \
       blocks_##Number##_four_per_cell(b, begin, end, to);                                          \
+    else if (b.form == TangentForm::full_per_cell)                                                 \
+      blocks_##Number##_full_per_cell(b, begin, end, to);                                          \
+    else                                                                                           \
+      blocks_##Number##_full_per_point(b, begin, end, to);                                         \
   }
   TETRADAPT_DISPATCH(double)
   TETRADAPT_DISPATCH(float)

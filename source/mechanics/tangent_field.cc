@@ -48,7 +48,7 @@ namespace tetradapt::mechanics
         const int region           = mesh.regions[cell];
         const auto [entry, is_new] = numbers.emplace(region, matrices.size());
         if (is_new)
-          matrices.push_back(to_voigt(materials.law(region).tangent(Tensor<2, 3>())));
+          matrices.push_back(to_voigt(materials.linear_law(region).tangent_at_rest()));
         which[cell] = entry->second;
       }
     isotropic = std::all_of(matrices.begin(), matrices.end(), mechanics::is_isotropic);
@@ -63,5 +63,13 @@ namespace tetradapt::mechanics
       matrices.push_back(to_voigt(tensor));
     isotropic
       = n_points == 1 && std::all_of(matrices.begin(), matrices.end(), mechanics::is_isotropic);
+  }
+
+  TangentField::TangentField(std::vector<laws::Tangent> tangents,
+                             std::vector<unsigned int>      first,
+                             const unsigned int             n_points)
+    : full_tangents(std::move(tangents)), which(std::move(first)), n_points(n_points),
+      isotropic(false)
+  {
   }
 } // namespace tetradapt::mechanics

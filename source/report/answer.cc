@@ -282,6 +282,12 @@ namespace tetradapt::report
     error_advice(const scene::Scene &scene, const adapt::CycleRecord &record)
     {
       const bool is_known = record.relative_energy_error || record.relative_estimate;
+      if (scene.formulation == scene::Formulation::finite_strain)
+        return scene.adaptivity.strategy == scene::AdaptivityParameters::Strategy::none
+                 ? "learn how wrong this is: set Adaptivity/Strategy = uniform with Maximum cycles = 3, "
+                   "and see how much the values still change."
+                 : "look at how much the values still change from cycle to cycle: errors are not "
+                   "estimated with Formulation = finite strain.";
       if (!is_known && !record.left_out.empty())
         return "learn how wrong this is away from points and lines: add Estimation/Estimators = "
                "residual (cheap) or spr, or set Adaptivity/Strategy = adaptive.";

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/report/mean_stresses.h"
 
+#include "tetradapt/mechanics/cauchy_stress.h"
+
 #include <cmath>
 
 namespace tetradapt::report
@@ -36,11 +38,25 @@ namespace tetradapt::report
       return p;
     }
 
+    /** Cauchy's stress in the mean of the quadrature points of the stiffness. */
+    SymmetricTensor<2, 3>
+    mean_cauchy_stress(const mesh::NodalField                &u,
+                       const unsigned int                     cell,
+                       const laws::ConstitutiveLaw       &law)
+    {
+      if (u.degree() == 1)
+        return mechanics::cauchy_stress(law, u.gradient(cell, centroid));
+      SymmetricTensor<2, 3> stress;
+      for (unsigned int q = 0; q < 4; ++q)
+        stress += 0.25 * mechanics::cauchy_stress(law, u.gradient(cell, gauss_point(q)));
+      return stress;
+    }
+
     SymmetricTensor<2, 3>
     mean_stress(const mesh::NodalField           &u,
                 const unsigned int                cell,
                 const mechanics::MaterialMap     &materials,
-                const mechanics::ConstitutiveLaw &law)
+                const laws::LinearLaw &law)
     {
       const bool thermal = materials.has_thermal_strain();
       if (u.pressure)
@@ -54,26 +70,17 @@ namespace tetradapt::report
                                                          position(u.mesh(), cell, gauss_point(q))));
           return form.stress(strain, u.pressure->value(cell, centroid));
         }
-      const bool at_centroid = law.is_linear() || u.degree() == 1;
-
-      SymmetricTensor<2, 3> stress;
-      if (at_centroid)
-        stress = law.stress(u.gradient(cell, centroid));
-      if (at_centroid && !thermal)
+      const SymmetricTensor<2, 3> stress = law.stress(u.gradient(cell, centroid));
+      if (!thermal)
         return stress;
 
       SymmetricTensor<2, 3> thermal_strain;
       for (unsigned int q = 0; q < 4; ++q)
-        {
-          const mesh::Barycentric b = gauss_point(q);
-          if (thermal)
-            thermal_strain
-              += 0.25
-                 * materials.thermal_strain(u.mesh().regions[cell], position(u.mesh(), cell, b));
-          if (!at_centroid)
-            stress += 0.25 * law.stress(u.gradient(cell, b));
-        }
-      return thermal ? stress - law.tangent(u.gradient(cell, centroid)) * thermal_strain : stress;
+        thermal_strain
+          += 0.25
+             * materials.thermal_strain(u.mesh().regions[cell],
+                                        position(u.mesh(), cell, gauss_point(q)));
+      return stress - law.tangent_at_rest() * thermal_strain;
     }
   } // namespace
 
@@ -86,8 +93,9 @@ namespace tetradapt::report
     result.stress.resize(6 * std::size_t(mesh.n_cells()));
     result.von_mises.resize(mesh.n_cells());
     result.pressure.resize(mesh.n_cells());
-    const mechanics::ConstitutiveLaw *law    = nullptr;
-    int                               region = 0;
+    const bool                       is_linear = materials.is_linear();
+    const laws::ConstitutiveLaw *law       = nullptr;
+    int                              region    = 0;
     for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
       {
         if (law == nullptr || mesh.regions[cell] != region)
@@ -95,7 +103,9 @@ namespace tetradapt::report
             region = mesh.regions[cell];
             law    = &materials.law(region);
           }
-        const SymmetricTensor<2, 3> s = mean_stress(u, cell, materials, *law);
+        const SymmetricTensor<2, 3> s
+          = is_linear ? mean_stress(u, cell, materials, materials.linear_law(region))
+                      : mean_cauchy_stress(u, cell, *law);
 
         double *const out = &result.stress[6 * std::size_t(cell)];
         out[0]            = s[0][0];

@@ -19,6 +19,11 @@ namespace tetradapt::scene
   void
   check_formulation(const Scene &scene);
 
+  /** What large deformation asks of loads, reference, goals, estimators and adaptivity.
+   * @throws core::InputError */
+  void
+  check_finite_strain(const Scene &scene);
+
   /** One message for each material for which the displacement form is poor; see
    * doc/mixed_form.md. */
   std::vector<std::string>

@@ -47,9 +47,10 @@ namespace tetradapt::scene
       binder("Formulation",
              scene.formulation,
              word_codec<Formulation>(),
-             "The unknowns: the displacement, or in mixed form the displacement of degree 2 and "
-             "the pressure of degree 1, for materials that are nearly or, with a Poisson ratio of "
-             "0.5, fully incompressible.");
+             "The unknowns and the theory: displacement, with small strains; mixed, with small "
+             "strains, the displacement of degree 2 and the pressure of degree 1, for materials "
+             "that are nearly or, with a Poisson ratio of 0.5, fully incompressible; finite strain, "
+             "the displacement with large deformation, for laws that are made for that.");
     }
 
     /** Calls @p act with each part of @p scene inside its section. */

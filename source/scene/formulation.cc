@@ -5,6 +5,7 @@
 #include "values.h"
 
 #include "tetradapt/scene/words.h"
+#include "tetradapt/laws/law_catalogue.h"
 
 namespace tetradapt::scene
 {
@@ -16,17 +17,53 @@ namespace tetradapt::scene
     /** Above this the displacement form is refused: rounding alone spoils its figures. */
     constexpr double largest_nu = 0.49999;
 
+    double
+    poisson_ratio(const MaterialParameters &material)
+    {
+      return material.moduli_at_rest().poisson_ratio;
+    }
+
+    /** The parameter to change for another Poisson ratio. */
+    std::string
+    place(const MaterialParameters &material)
+    {
+      return "Materials/" + material.name + "/"
+             + laws::find_law(material.law).constants.back().name;
+    }
+
+    void
+    check_laws(const Scene &scene)
+    {
+      Mistakes mistakes;
+      for (const auto &material : scene.materials)
+        {
+          const auto  law = laws::make_law(material.law, material.constants);
+          std::string others;
+          for (const auto &[formulation, name] : words(Formulation()))
+            if (law->supports(formulation))
+              others += (others.empty() ? "" : " or ") + name;
+          mistakes.require(law->supports(scene.formulation),
+                           "Materials/" + material.name + "/Law",
+                           "the law '" + material.law + "' is not for Formulation = "
+                             + word(scene.formulation) + ". Set Formulation = " + others
+                             + ", or choose another law.");
+        }
+      mistakes.throw_together();
+    }
+
     void
     check_displacement_form(const Scene &scene)
     {
       Mistakes mistakes;
       for (const auto &material : scene.materials)
         mistakes.require(
-          material.poisson_ratio <= largest_nu,
-          "Materials/" + material.name + "/Poisson ratio",
-          "the displacement form cannot solve for a material with "
-            + text_of(material.poisson_ratio) + ": elements lock above " + text_of(largest_nu)
-            + ". Set Formulation = mixed and Degree = 2, which serve up to 0.5 itself.");
+          poisson_ratio(material) <= largest_nu,
+          place(material),
+          "the " + word(scene.formulation) + " form cannot solve for a material with a Poisson ratio of "
+            + text_of(poisson_ratio(material)) + ": elements lock above " + text_of(largest_nu) + ". "
+            + (scene.formulation == Formulation::finite_strain
+                 ? "Make the material more compressible."
+                 : "Set Formulation = mixed and Degree = 2, which serve up to 0.5 itself."));
       mistakes.throw_together();
     }
 
@@ -54,9 +91,9 @@ namespace tetradapt::scene
         "unstable.");
       for (const auto &material : scene.materials)
         mistakes.require(
-          material.poisson_ratio > 0.,
-          "Materials/" + material.name + "/Poisson ratio",
-          "must be positive with Formulation = mixed, not " + text_of(material.poisson_ratio)
+          poisson_ratio(material) > 0.,
+          place(material),
+          "must be positive with Formulation = mixed, not " + text_of(poisson_ratio(material))
             + ". For a body without nearly incompressible parts leave out Formulation.");
       using Reference = ReferenceParameters::Type;
       mistakes.require(
@@ -86,25 +123,31 @@ namespace tetradapt::scene
   void
   check_formulation(const Scene &scene)
   {
+    check_laws(scene);
     if (scene.formulation == Formulation::mixed)
       check_mixed_form(scene);
     else
       check_displacement_form(scene);
+    if (scene.formulation == Formulation::finite_strain)
+      check_finite_strain(scene);
   }
 
   std::vector<std::string>
   locking_warnings(const Scene &scene)
   {
     std::vector<std::string> messages;
-    if (scene.formulation == Formulation::displacement)
+    if (scene.formulation != Formulation::mixed)
       for (const auto &material : scene.materials)
-        if (material.poisson_ratio > locking_nu[scene.degree - 1])
-          messages.push_back("Materials/" + material.name + "/Poisson ratio: above "
+        if (poisson_ratio(material) > locking_nu[scene.degree - 1])
+          messages.push_back(place(material) + ": with a Poisson ratio above "
                              + text_of(locking_nu[scene.degree - 1])
                              + (scene.degree == 1 ? " linear" : " quadratic")
                              + " elements lock in displacement form: they are too stiff on coarse "
-                               "meshes, and their stresses oscillate. Set Formulation = mixed"
-                             + (scene.degree == 1 ? " and Degree = 2." : "."));
+                               "meshes, and their stresses oscillate. "
+                             + (scene.formulation == Formulation::finite_strain
+                                  ? (scene.degree == 1 ? "Set Degree = 2." : "Use a fine mesh.")
+                                : scene.degree == 1 ? "Set Formulation = mixed and Degree = 2."
+                                                    : "Set Formulation = mixed."));
     return messages;
   }
 } // namespace tetradapt::scene

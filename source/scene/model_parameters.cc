@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/scene/model_parameters.h"
+#include "tetradapt/laws/law_catalogue.h"
 
 #include "binder.h"
 #include "face_choice.h"
@@ -8,6 +9,7 @@
 #include "special_loads.h"
 
 #include "tetradapt/core/surface_expression.h"
+#include "tetradapt/scene/nearest_names.h"
 
 #include <algorithm>
 
@@ -17,10 +19,47 @@ namespace tetradapt::scene
   {
     const char *region_note = "Both lists empty: ";
 
+    /** Which laws have the constant @p name. */
+    std::string
+    users_of(const std::string &name)
+    {
+      std::string users;
+      for (const laws::LawEntry &law : laws::law_catalogue())
+        for (const laws::Constant &constant : law.constants)
+          if (constant.name == name)
+            users += (users.empty() ? "" : ", ") + law.name;
+      return users;
+    }
+
+    /** The constants of all laws. Those that are not set are those of the law only. */
+    void
+    bind_constants(MaterialParameters &p, Binder &binder)
+    {
+      for (const laws::Constant &constant : laws::all_constants())
+        {
+          std::optional<double> value;
+          if (const auto given = p.constants.find(constant.name); given != p.constants.end())
+            value = given->second;
+          binder(constant.name,
+                 value,
+                 optional_number_codec(),
+                 constant.documentation + " Of " + users_of(constant.name) + "; empty: "
+                   + text_of(constant.standard) + ".");
+          if (value)
+            p.constants[constant.name] = *value;
+        }
+    }
+
     void
     bind(MaterialParameters &p, Binder &binder)
     {
-      binder("Law", p.law, text_codec("the name of a law"), "Constitutive law.");
+      std::string names, texts;
+      for (const laws::LawEntry &law : laws::law_catalogue())
+        {
+          names += (names.empty() ? "" : ", ") + law.name;
+          texts += (texts.empty() ? "" : "; ") + law.name + ": " + law.documentation;
+        }
+      binder("Law", p.law, text_codec("one of: " + names), "Constitutive law. " + texts + ".");
       binder("Regions",
              p.regions,
              ids_codec(),
@@ -30,14 +69,7 @@ namespace tetradapt::scene
              p.region_groups,
              names_codec(),
              "Names of regions that it fills, where the mesh file has names.");
-      binder("Young modulus",
-             p.young_modulus,
-             number_codec(),
-             "E, in the unit of pressure that the loads have.");
-      binder("Poisson ratio",
-             p.poisson_ratio,
-             number_codec(),
-             "nu, between -1 and 0.5; 0.5 itself with Formulation = mixed only.");
+      bind_constants(p, binder);
       binder("Density",
              p.density,
              number_codec(),
@@ -215,6 +247,64 @@ namespace tetradapt::scene
     return acts_on_surface(type) || type == LoadType::nodal_force;
   }
 
+  namespace
+  {
+    std::string
+    names_of(const laws::Constants &constants)
+    {
+      std::string names;
+      for (const auto &constant : constants)
+        names += (names.empty() ? "" : ", ") + constant.first;
+      return names;
+    }
+
+    /** @throws core::InputError or SeveralMistakes */
+    void
+    check_law(const MaterialParameters &material)
+    {
+      const std::string path = "Materials/" + material.name + "/";
+      Mistakes          mistakes;
+      std::vector<std::string> laws;
+      for (const laws::LawEntry &entry : laws::law_catalogue())
+        laws.push_back(entry.name);
+      if (!mistakes.require(std::count(laws.begin(), laws.end(), material.law) > 0,
+                            path + "Law",
+                            "there is no law '" + material.law + "'. "
+                              + suggest(material.law, laws)))
+        mistakes.throw_together();
+      try
+        {
+          const laws::Constants values = laws::values_of(material.law, material.constants);
+          for (const auto &given : material.constants)
+            mistakes.require(values.count(given.first) > 0,
+                             path + given.first,
+                             "the law '" + material.law + "' has no such constant. It has "
+                               + names_of(values) + ".");
+          for (const laws::Constant &constant : laws::find_law(material.law).constants)
+            {
+              const double      value   = values.at(constant.name);
+              const std::string mistake = constant.mistake(value);
+              mistakes.require(mistake.empty(),
+                               path + constant.name,
+                               mistake + ", not " + text_of(value) + ".");
+            }
+          if (mistakes.empty())
+            laws::make_law(material.law, material.constants);
+        }
+      catch (const core::InputError &error)
+        {
+          mistakes.add(path + "Law", error.what());
+        }
+      mistakes.throw_together();
+    }
+  } // namespace
+
+  laws::ModuliAtRest
+  MaterialParameters::moduli_at_rest() const
+  {
+    return laws::make_law(law, constants)->moduli_at_rest();
+  }
+
   void
   MaterialParameters::declare(dealii::ParameterHandler &prm) const
   {
@@ -224,7 +314,13 @@ namespace tetradapt::scene
   void
   MaterialParameters::parse(dealii::ParameterHandler &prm)
   {
+    constants.clear();
     parse_bound(*this, prm, bind);
+    // Those that are not given; check() tells of an unknown law.
+    for (const laws::LawEntry &entry : laws::law_catalogue())
+      if (entry.name == law)
+        for (const auto &value : laws::values_of(law, constants))
+          constants.insert(value);
   }
 
   void
@@ -233,12 +329,8 @@ namespace tetradapt::scene
     Mistakes          mistakes;
     const std::string path = "Materials/" + name + "/";
     mistakes.require(!law.empty(), path + "Law", "give the name of a law, such as linear elastic.");
-    mistakes.require(young_modulus > 0.,
-                     path + "Young modulus",
-                     "must be positive, not " + text_of(young_modulus) + ".");
-    mistakes.require(poisson_ratio > -1. && poisson_ratio <= 0.5,
-                     path + "Poisson ratio",
-                     "must be larger than -1 and at most 0.5, not " + text_of(poisson_ratio) + ".");
+    if (!law.empty())
+      mistakes.attempt([&]() { check_law(*this); });
     mistakes.require(density >= 0.,
                      path + "Density",
                      "must not be negative; it is " + text_of(density) + ".");

@@ -97,33 +97,14 @@ namespace tetradapt::scene
       for (const auto &child : section.sections)
         print_markdown(stream, child, name.empty() ? child.name : name + "/" + child.name);
     }
-    /** Lets the entry of a material's law say which there are. */
-    void
-    declare_laws(const std::vector<std::string> &laws, dealii::ParameterHandler &prm)
-    {
-      std::string names;
-      for (const std::string &law : laws)
-        names += (names.empty() ? "" : ", ") + law;
-      prm.enter_subsection("Materials");
-      prm.enter_subsection(name_placeholder);
-      prm.declare_entry("Law",
-                        MaterialParameters().law,
-                        CodecPattern<std::string>(text_codec("one of: " + names)),
-                        "Constitutive law.");
-      prm.leave_subsection();
-      prm.leave_subsection();
-    }
   } // namespace
 
   void
-  print_parameters(std::ostream                   &stream,
-                   const ParameterFormat           format,
-                   const std::vector<std::string> &laws)
+  print_parameters(std::ostream &stream, const ParameterFormat format)
   {
     using Handler = dealii::ParameterHandler;
     Handler prm;
     declare(template_scene(), prm);
-    declare_laws(laws, prm);
     switch (format)
       {
       case ParameterFormat::prm:

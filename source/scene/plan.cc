@@ -187,6 +187,12 @@ namespace tetradapt::scene
         direct,
         type == Solver::direct ? given : "systems of at most " + limit,
         type == Solver::cg ? given : "Solver/Direct limit = 0");
+    const std::string formulation = "Formulation = " + word(scene.formulation);
+    add(newton_method,
+        "Newton's method",
+        scene.formulation == Formulation::finite_strain,
+        formulation,
+        formulation + ": one linear solve");
   }
 
   void

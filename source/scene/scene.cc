@@ -253,6 +253,11 @@ namespace tetradapt::scene
                            "Adaptivity/Coarsening",
                            "bricks have no surface to mesh from scratch. Use Mesh/Type = box.");
         }
+      if (scene.formulation == Formulation::finite_strain)
+        {
+          mistakes.throw_together(); // check_finite_strain() tells of tolerances
+          return;
+        }
       mistakes.require(
         adapt.tolerance == 0. || has_ref || has_u || scene.exact_solution.has_energy()
           || !energy_estimator(scene).empty(),

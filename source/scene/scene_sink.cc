@@ -99,7 +99,8 @@ namespace tetradapt::scene
       mistakes.add_message(place.text() + ": " + whole + ": '" + value
                              + "' does not fit. Expected: " + section->entry(name)->expected + ".",
                            whole,
-                           is_number(section->entry(name)->default_value));
+                           is_number(section->entry(name)->default_value)
+                             || section->entry(name)->expected == optional_number_codec().expected);
   }
 
   void

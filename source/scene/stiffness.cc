@@ -3,6 +3,8 @@
 #include "require.h"
 #include "values.h"
 
+#include "tetradapt/laws/law_catalogue.h"
+
 #include <algorithm>
 
 namespace tetradapt::scene
@@ -16,13 +18,27 @@ namespace tetradapt::scene
      * the energy is wrong by 5e-8 at a contrast of 1e11, 4e-5 at 1e12, 2e-3 at 1e13. */
     constexpr double doubtful_contrast = 1e10, largest_contrast = 1e12;
 
+    double
+    modulus(const MaterialParameters &material)
+    {
+      return material.moduli_at_rest().young_modulus;
+    }
+
+    /** The parameter to change for another stiffness. */
+    std::string
+    place(const MaterialParameters &material)
+    {
+      return "Materials/" + material.name + "/"
+             + laws::find_law(material.law).constants.front().name;
+    }
+
     std::pair<const MaterialParameters *, const MaterialParameters *>
     softest_and_stiffest(const Scene &scene)
     {
       const auto ends = std::minmax_element(scene.materials.begin(),
                                             scene.materials.end(),
                                             [](const auto &a, const auto &b) {
-                                              return a.young_modulus < b.young_modulus;
+                                              return modulus(a) < modulus(b);
                                             });
       return {&*ends.first, &*ends.second};
     }
@@ -30,8 +46,8 @@ namespace tetradapt::scene
     std::string
     contrast_message(const MaterialParameters &soft, const MaterialParameters &stiff)
     {
-      return "is " + text_of(stiff.young_modulus) + ", which is "
-             + text_of(stiff.young_modulus / soft.young_modulus) + " times that of '" + soft.name
+      return "is " + text_of(modulus(stiff)) + ", which is "
+             + text_of(modulus(stiff) / modulus(soft)) + " times that of '" + soft.name
              + "': ";
     }
   } // namespace
@@ -41,15 +57,15 @@ namespace tetradapt::scene
   {
     Mistakes mistakes;
     for (const auto &material : scene.materials)
-      mistakes.require(material.young_modulus >= smallest_modulus
-                         && material.young_modulus <= largest_modulus,
-                       "Materials/" + material.name + "/Young modulus",
-                       "it is " + text_of(material.young_modulus) + "; " + text_of(smallest_modulus)
+      mistakes.require(modulus(material) >= smallest_modulus
+                         && modulus(material) <= largest_modulus,
+                       place(material),
+                       "it is " + text_of(modulus(material)) + "; " + text_of(smallest_modulus)
                          + " to " + text_of(largest_modulus)
                          + " can be computed with. Choose another unit of stress.");
     const auto [soft, stiff] = softest_and_stiffest(scene);
-    mistakes.require(stiff->young_modulus <= largest_contrast * soft->young_modulus,
-                     "Materials/" + stiff->name + "/Young modulus",
+    mistakes.require(modulus(*stiff) <= largest_contrast * modulus(*soft),
+                     place(*stiff),
                      contrast_message(*soft, *stiff)
                        + "rounding in the stiff part would spoil the soft one. Lower it (a "
                          "contrast of 1e6 is practically rigid), or leave the stiff part out and "
@@ -63,9 +79,9 @@ namespace tetradapt::scene
     if (scene.materials.empty())
       return "";
     const auto [soft, stiff] = softest_and_stiffest(scene);
-    if (!(stiff->young_modulus > doubtful_contrast * soft->young_modulus))
+    if (!(modulus(*stiff) > doubtful_contrast * modulus(*soft)))
       return "";
-    return "Materials/" + stiff->name + "/Young modulus: " + contrast_message(*soft, *stiff)
+    return place(*stiff) + ": " + contrast_message(*soft, *stiff)
            + "rounding in the stiff part leaves only some digits in the soft one. A contrast of "
              "1e6 is practically rigid.";
   }

@@ -85,6 +85,9 @@ namespace tetradapt::scene
             "Adaptivity/REN tolerance",
             "Adaptivity/Goal tolerance"},
            "Adaptivity/Strategy = " + word(adapt.strategy));
+      when(scene.formulation == Formulation::finite_strain,
+           {"Solver/Stopping", "Solver/Solver error fraction", "Estimation/Goal"},
+           "Formulation = finite strain");
       return unused;
     }
   } // namespace

@@ -7,7 +7,8 @@ namespace tetradapt::scene
   words(Formulation)
   {
     static const Words<Formulation> table{{Formulation::displacement, "displacement"},
-                                          {Formulation::mixed, "mixed"}};
+                                          {Formulation::mixed, "mixed"},
+                                          {Formulation::finite_strain, "finite strain"}};
     return table;
   }
 

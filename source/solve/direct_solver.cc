@@ -2,6 +2,7 @@
 #include "tetradapt/solve/direct_solver.h"
 
 #include "tetradapt/core/exceptions.h"
+#include "tetradapt/solve/indefinite_matrix.h"
 
 #include "messages.h"
 
@@ -126,7 +127,21 @@ namespace tetradapt::solve
       cholmod_l_free_sparse(&matrix, &common);
       // The largest pivot is one, so this is the smallest. False for NaN.
       return factor != nullptr && common.status == CHOLMOD_OK && factor->minor == n
-             && cholmod_l_rcond(factor, &common) > smallest_pivot;
+             && cholmod_l_rcond(factor, &common) > smallest_pivot && has_positive_pivots();
+    }
+
+    /** The simplicial factorisation L D L^T goes on where an entry of D is negative. */
+    bool
+    has_positive_pivots() const
+    {
+      if (factor->is_super != 0 || factor->is_ll != 0)
+        return true; // L L^T ends there
+      const auto *begin  = static_cast<const std::int64_t *>(factor->p);
+      const auto *values = static_cast<const double *>(factor->x);
+      for (std::size_t column = 0; column < factor->n; ++column)
+        if (!(values[begin[column]] > 0.))
+          return false;
+      return true;
     }
 
     /** x becomes the solution for the right-hand side x; false without memory. */
@@ -168,7 +183,9 @@ namespace tetradapt::solve
     std::vector<double> scales;
   };
 
-  DirectSolver::DirectSolver(const mechanics::BlockMatrix &matrix, const fem::Space &space)
+  DirectSolver::DirectSolver(const mechanics::BlockMatrix &matrix,
+                             const fem::Space             &space,
+                             const bool                    may_be_indefinite)
     : factors(std::make_unique<Factors>()), communicator(space.communicator()),
       is_first_rank(dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
   {
@@ -179,6 +196,8 @@ namespace tetradapt::solve
     fits                    = dealii::Utilities::MPI::min(fits ? 1 : 0, communicator) == 1;
     if (!fits)
       throw_out_of_memory();
+    if (!good && may_be_indefinite)
+      throw IndefiniteMatrix();
     if (!good)
       throw_singular();
   }

@@ -26,7 +26,7 @@ namespace tetradapt::solve
       {
         const auto found = moduli.emplace(region, 0.);
         if (found.second)
-          found.first->second = mechanics::shear_modulus(materials.law(region));
+          found.first->second = laws::shear_modulus(materials.linear_law(region));
         return found.first->second;
       }
 
@@ -127,7 +127,7 @@ namespace tetradapt::solve
     for (unsigned int cell = begin; cell < end; ++cell)
       {
         const int    region = mesh.regions[cell];
-        const auto  &law    = materials.law(region);
+        const auto  &law    = materials.linear_law(region);
         const double volume = mesh::cell_volume(mesh, cell);
         const double mu     = shear_moduli(region);
         // In mixed form, of the elastic part of a gradient; else of a strain.
@@ -184,7 +184,7 @@ namespace tetradapt::solve
     for (unsigned int cell = begin; cell < end; ++cell)
       {
         const auto  &box    = displacement.cells()[cell];
-        const auto  &law    = materials.law(box.region);
+        const auto  &law    = materials.linear_law(box.region);
         const double volume = box.size[0] * box.size[1] * box.size[2];
         const double mu     = shear_moduli(box.region);
         for (unsigned int q = 0; q < gauss.size(); ++q)

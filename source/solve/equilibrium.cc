@@ -28,6 +28,8 @@ namespace tetradapt::solve
     bool
     is_unfinished(const LoadedSystem &system, const StaticSolution &solution)
     {
+      if (system.internal_forces != nullptr)
+        return false; // Newton's method ends by its tolerance
       return system.scene.solver.stopping == scene::SolverParameters::Stopping::discretisation
              || solution.iterations < solution.iterations_to_tolerance;
     }
@@ -49,7 +51,10 @@ namespace tetradapt::solve
           const Tensor<1, 3> &force      = system.forces[field_node];
           if (force == Tensor<1, 3>())
             continue;
-          sum.resultant.add(displacement.node_position(field_node), force);
+          Point<3> x = displacement.node_position(field_node);
+          if (system.internal_forces != nullptr)
+            x += displacement.values[field_node];
+          sum.resultant.add(x, force);
           sum.magnitude += force.norm();
         }
       const MPI_Comm communicator = system.space.communicator();
@@ -126,6 +131,7 @@ namespace tetradapt::solve
                                      system.materials,
                                      system.prescribed,
                                      system.forces,
+                                     system.internal_forces,
                                      *solution.displacement,
                                      system.scene.supports.size(),
                                      is_unfinished(system, solution));

@@ -44,7 +44,7 @@ namespace tetradapt::solve
                    const std::vector<Tensor<1, 3>> &displacement,
                    std::vector<Stress>             &stresses)
     {
-      const auto        &law = materials.law(region);
+      const auto        &law = materials.linear_law(region);
       const unsigned int n = edge.n, stride[3] = {1, n, n * n};
       for (unsigned int node = 0; node < n * n * n; ++node)
         {
@@ -216,7 +216,7 @@ namespace tetradapt::solve
         regions.insert(grid.regions[brick]);
     for (const int region : regions)
       {
-        const auto &law = materials.law(region);
+        const auto &law = materials.linear_law(region);
         MeanStress  mean(space.hanging_nodes(), free_sides);
         for (unsigned int c = 0; c < result.size(); ++c)
           if (cells[c].region == region)

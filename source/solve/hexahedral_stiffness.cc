@@ -32,7 +32,7 @@ namespace tetradapt::solve
         const int region
           = static_cast<int>(matrix_free.get_cell_iterator(batch, 0, index)->material_id());
         region_of_batch.push_back(region);
-        tangents[region] = materials.law(region).tangent(Tensor<2, 3>());
+        tangents[region] = materials.linear_law(region).tangent_at_rest();
       }
   }
 

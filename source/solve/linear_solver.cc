@@ -2,6 +2,7 @@
 #include "tetradapt/solve/linear_solver.h"
 
 #include "tetradapt/core/exceptions.h"
+#include "tetradapt/solve/indefinite_matrix.h"
 
 #include "flat_correction.h"
 
@@ -78,7 +79,7 @@ namespace tetradapt::solve
     log.progress(factorise ? "factorising" : "building the preconditioner");
     if (factorise)
       {
-        direct      = std::make_unique<DirectSolver>(assembled->matrix, space);
+        direct = std::make_unique<DirectSolver>(assembled->matrix, space, model.tangents.is_full());
         description = "direct (Cholesky)";
       }
     else
@@ -262,6 +263,9 @@ namespace tetradapt::solve
         result.iterations_to_residual
           = result.iterations + step.iterations_to_residual - step.iterations;
         result.algebraic_error = step.error;
+        // Of laws that are not linear this tells of the body; of others, of rounding.
+        if (model.tangents.is_full() && step.is_indefinite)
+          throw IndefiniteMatrix();
         // Elements with almost no volume can be too much for single precision.
         if (!step.converged && is_single && result.iterations < parameters.max_iterations)
           {
@@ -306,6 +310,7 @@ namespace tetradapt::solve
       = conjugate_gradients(matrix(), *preconditioner, right_hand_side, control, x);
     IterationResult result = control.result();
     result.converged       = ending == Ending::converged;
+    result.is_indefinite   = ending == Ending::indefinite;
     if (ending == Ending::not_finite)
       result.gained = 0.; // x is what it was
     if (result.iterations == 0 && result.residual > 0.)
@@ -336,15 +341,22 @@ namespace tetradapt::solve
   void
   LinearSolver::factorise_instead(const unsigned int iterations) const
   {
-    log.warning("Conjugate gradients were given up after " + std::to_string(iterations)
-                + " iterations, since they converge too slowly: elements are very flat or long, "
-                  "or materials differ very much in stiffness. The direct solver takes over.");
+    const std::string given_up
+      = "Conjugate gradients were given up after " + std::to_string(iterations) + " iterations";
+    // Tangents may be hard to solve with only on the way to a solution.
+    if (model.tangents.is_full())
+      log.detail(given_up + ". The direct solver takes over.");
+    else
+      log.warning(given_up
+                  + ", since they converge too slowly: elements are very flat or long, "
+                    "or materials differ very much in stiffness. The direct solver takes over.");
     log.progress("factorising");
     direct
       = std::make_unique<DirectSolver>(assembled != nullptr
                                          ? assembled->matrix
                                          : mechanics::assemble(space, model.tangents, fixed).matrix,
-                                       space);
+                                       space,
+                                       model.tangents.is_full());
     preconditioner.reset();
   }
 

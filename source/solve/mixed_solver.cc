@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/solve/mixed_solver.h"
+#include "tetradapt/laws/law_catalogue.h"
 
 #include "tetradapt/core/exceptions.h"
-#include "tetradapt/mechanics/constitutive_law.h"
+#include "tetradapt/laws/constitutive_law.h"
 
 #include "residual_directions.h"
 
@@ -18,12 +19,17 @@ namespace tetradapt::solve
     scene::Scene result = scene;
     result.formulation  = scene::Formulation::displacement;
     for (auto &material : result.materials)
-      if (const auto form = mechanics::make_law(material)->pressure_form())
-        {
-          const double mu        = form->shear_modulus;
-          material.poisson_ratio = 0.5 * form->kept_lambda / (form->kept_lambda + mu);
-          material.young_modulus = 2. * mu * (1. + material.poisson_ratio);
-        }
+      {
+        const auto law    = laws::make_law(material.law, material.constants);
+        const auto linear = dynamic_cast<const laws::LinearLaw *>(law.get());
+        const auto form   = linear != nullptr ? linear->pressure_form() : std::nullopt;
+        if (!form)
+          continue;
+        const double mu    = form->shear_modulus;
+        const double nu    = 0.5 * form->kept_lambda / (form->kept_lambda + mu);
+        material.law       = "linear elastic";
+        material.constants = {{"Young modulus", 2. * mu * (1. + nu)}, {"Poisson ratio", nu}};
+      }
     return result;
   }
 

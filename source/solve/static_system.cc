@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/solve/static_system.h"
+#include "tetradapt/core/exceptions.h"
 #include "tetradapt/fem/triangulation.h"
 
 #include "tetradapt/mechanics/loads.h"
 #include "tetradapt/solve/energies.h"
 #include "tetradapt/solve/linear_solver.h"
 #include "tetradapt/solve/mixed_solver.h"
+#include "tetradapt/solve/nonlinear_solver.h"
 #include "tetradapt/solve/static_solution.h"
 
 #include <deal.II/base/mpi.h>
@@ -83,7 +85,7 @@ namespace tetradapt::solve
         kept(materials.is_mixed()
                ? std::make_unique<mechanics::MaterialMap>(kept_scene(scene), *mesh)
                : nullptr),
-        triangulation(*mesh, communicator), tangents(kept ? *kept : materials, *mesh)
+        triangulation(*mesh, communicator)
     {
       space       = std::make_unique<fem::Space>(triangulation, degree, edges.get());
       constraints = mechanics::make_constraints(prescribed, *space);
@@ -93,9 +95,14 @@ namespace tetradapt::solve
         = mechanics::assemble_loads(scene, kept ? *kept : materials, *space);
       forces      = std::move(loads.forces);
       load_totals = std::move(loads.totals);
-      for (const auto &total : load_totals)
-        load_resultants.push_back(total.resultant);
-      solver = std::make_unique<LinearSolver>(LinearModel{*space, tangents, constraints},
+      if (!materials.is_linear())
+        {
+          nonlinear_solver = std::make_unique<NonlinearSolver>(
+            NonlinearModel{*space, materials, prescribed, forces}, scene.solver, log);
+          return;
+        }
+      tangents = std::make_unique<mechanics::TangentField>(kept ? *kept : materials, *mesh);
+      solver   = std::make_unique<LinearSolver>(LinearModel{*space, *tangents, constraints},
                                               scene.solver,
                                               log);
       if (materials.is_mixed())
@@ -121,6 +128,9 @@ namespace tetradapt::solve
       return x;
     }
 
+    void
+    solve_nonlinear(Vector &x, StaticSolution &solution);
+
     const scene::Scene                    &scene;
     const mechanics::MaterialMap          &materials;
     std::shared_ptr<const mesh::TetMesh>   mesh;
@@ -131,16 +141,52 @@ namespace tetradapt::solve
     /** Mixed form only: the materials without what the pressure carries. */
     std::unique_ptr<mechanics::MaterialMap> kept;
     fem::Triangulation                      triangulation;
-    mechanics::TangentField                 tangents;
+    std::unique_ptr<mechanics::TangentField> tangents; ///< of linear laws
     std::unique_ptr<fem::Space>             space;
     fem::Constraints                        constraints; ///< of the supports
     std::unique_ptr<fem::FixedUnknowns>     fixed;       ///< by constraints
     NodalValues                             forces;      ///< of the loads, on the nodes owned
     std::vector<mechanics::LoadTotal>       load_totals;
-    std::vector<mechanics::Resultant>       load_resultants; ///< of load_totals
-    std::unique_ptr<LinearSolver>           solver;
-    std::unique_ptr<MixedSolver>            mixed_solver; ///< mixed form only
+    /** Of laws that are not linear, at the last solution; on the nodes owned. */
+    NodalValues internal_forces;
+    /** Of these: the resultants of the loads at the deformed positions. */
+    std::vector<mechanics::Resultant> deformed_loads;
+    std::unique_ptr<LinearSolver>           solver;           ///< of linear laws
+    std::unique_ptr<MixedSolver>            mixed_solver;     ///< mixed form only
+    std::unique_ptr<NonlinearSolver>        nonlinear_solver; ///< of laws that are not linear
   };
+
+  /** The part of solve() for laws that are not linear. */
+  void
+  StaticSystem::Data::solve_nonlinear(Vector &x, StaticSolution &solution)
+  {
+    const NonlinearResult  result = nonlinear_solver->solve(x);
+    const mesh::NodalField *field = solution.displacement.get();
+    space->gather(x, solution.displacement->values);
+    deformed_loads.clear();
+    for (const auto &total : mechanics::assemble_loads(scene, materials, *space, field).totals)
+      deformed_loads.push_back(total.resultant);
+    solution.external_work = work(*space, forces, field->values);
+    solution.strain_energy = result.stored_energy;
+    solution.energy        = prescribed.is_homogeneous()
+                               ? 2. * (solution.external_work - result.stored_energy)
+                               : 2. * result.stored_energy;
+    solution.norm.value      = std::sqrt(2. * std::max(0., result.stored_energy));
+    solution.norm.noise      = mechanics::EnergyNorm::rounding * solution.norm.value
+                          + algebraic_noise * result.algebraic_error;
+    solution.algebraic_error         = result.algebraic_error;
+    solution.iterations              = result.linear_iterations;
+    solution.iterations_to_tolerance = result.linear_iterations;
+    solution.solver = "Newton's method, " + std::to_string(result.steps) + " steps in "
+                      + std::to_string(result.load_steps) + " of the load";
+    if (result.vain_steps > 0)
+      solution.solver += " and " + std::to_string(result.vain_steps) + " in vain";
+    internal_forces = nonlinear_solver->internal_forces(x);
+    double sum      = 0.;
+    for (unsigned int node = 0; node < space->n_owned_nodes(); ++node)
+      sum += internal_forces[space->field_node(node)].norm();
+    solution.load_magnitude = dealii::Utilities::MPI::sum(sum, space->communicator());
+  }
 
   StaticSystem::StaticSystem(const scene::Scene                  &scene,
                              const mechanics::MaterialMap        &materials,
@@ -165,9 +211,16 @@ namespace tetradapt::solve
     solution.loads  = data->load_totals;
     auto &values    = solution.displacement->values;
 
-    Vector       x               = data->vector_of(start == nullptr ? nullptr : &start->values, 1.);
-    const Vector right_hand_side = data->solver->right_hand_side(data->forces);
+    // Where laws are not linear, prescribed values are approached from the last ones.
+    Vector x = data->vector_of(start == nullptr ? nullptr : &start->values,
+                               data->nonlinear_solver && start == nullptr ? 0. : 1.);
+    if (data->nonlinear_solver)
+      {
+        data->solve_nonlinear(x, solution);
+        return solution;
+      }
     LinearStop   linear_stop{stop.residual, stop.algebraic_error, stop.relative_error, {}};
+    const Vector right_hand_side = data->solver->right_hand_side(data->forces);
     LinearResult result;
     if (data->mixed_solver)
       {
@@ -211,6 +264,7 @@ namespace tetradapt::solve
   std::shared_ptr<mesh::NodalField>
   StaticSystem::solve_dual(const NodalValues &forces, const Stop &stop) const
   {
+    require_linear();
     auto         field = std::make_shared<mesh::NodalField>(data->mesh, data->degree, data->edges);
     Vector       x     = data->vector_of(nullptr, 0.);
     const Vector b     = data->vector_of(&forces, 0.);
@@ -225,9 +279,18 @@ namespace tetradapt::solve
   void
   StaticSystem::precondition(const NodalValues &forces, NodalValues &displacement) const
   {
+    require_linear();
     Vector x(data->space->vector_layout());
     data->solver->precondition(x, data->vector_of(&forces, 0.));
     data->space->gather(x, displacement);
+  }
+
+  void
+  StaticSystem::require_linear() const
+  {
+    if (data->nonlinear_solver)
+      throw core::InputError("Dual problems and corrections are solved for laws of small strains "
+                             "only. Leave out the estimators that need them.");
   }
 
   NodalValues
@@ -247,12 +310,17 @@ namespace tetradapt::solve
   StaticSystem::equilibrium(const StaticSolution                        &solution,
                             const std::vector<mechanics::RegionFigures> &regions) const
   {
+    std::vector<mechanics::Resultant> resultants = data->deformed_loads;
+    if (resultants.empty())
+      for (const auto &total : solution.loads)
+        resultants.push_back(total.resultant);
     return compute_equilibrium({data->scene,
                                 *data->space,
                                 data->materials,
                                 data->prescribed,
                                 data->forces,
-                                data->load_resultants},
+                                data->nonlinear_solver ? &data->internal_forces : nullptr,
+                                resultants},
                                solution,
                                regions);
   }

@@ -26,8 +26,8 @@ namespace
     scene::Scene              scene;
     scene::MaterialParameters material;
     material.name          = "material";
-    material.young_modulus = 1000.;
-    material.poisson_ratio = 0.25;
+    material.constants["Young modulus"] = 1000.;
+    material.constants["Poisson ratio"] = 0.25;
     scene.materials.push_back(material);
     return mechanics::MaterialMap(scene, mesh);
   }

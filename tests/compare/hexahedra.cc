@@ -151,8 +151,8 @@ namespace
     scene::Scene              scene;
     scene::MaterialParameters material;
     material.name           = "m";
-    material.young_modulus  = 10.;
-    material.poisson_ratio  = 0.3;
+    material.constants["Young modulus"]  = 10.;
+    material.constants["Poisson ratio"]  = 0.3;
     scene.materials         = {material};
     scene.mesh.source       = scene::MeshSource::bricks;
     scene.mesh.upper_corner = Point<3>(2, 1, 1);

@@ -289,8 +289,8 @@ namespace
       keys.insert(reference_key(copy, *mesh));
       ++changes;
     };
-    changed([](scene::Scene &s) { s.materials[0].young_modulus *= 1. + 1e-15; });
-    changed([](scene::Scene &s) { s.materials[0].poisson_ratio = 0.31; });
+    changed([](scene::Scene &s) { s.materials[0].constants["Young modulus"] *= 1. + 1e-15; });
+    changed([](scene::Scene &s) { s.materials[0].constants["Poisson ratio"] = 0.31; });
     changed([](scene::Scene &s) { s.materials[0].regions = {0}; });
     changed([](scene::Scene &s) { s.materials.resize(2); });
     changed([](scene::Scene &s) { s.supports[0].components[1] = false; });

@@ -87,8 +87,8 @@ main(int argc, char **argv)
       quadratic.supports[0].displacement[i]    = u[i];
     }
   quadratic.exact_solution.gradient.fill("");
-  quadratic.materials[0].young_modulus = 2.98;
-  quadratic.materials[0].poisson_ratio = 0.49;
+  quadratic.materials[0].constants["Young modulus"] = 2.98;
+  quadratic.materials[0].constants["Poisson ratio"] = 0.49;
   for (auto &load : quadratic.loads)
     if (load.type == scene::LoadType::body_force)
       for (unsigned int i = 0; i < 3; ++i)

@@ -132,7 +132,7 @@ namespace
     double              sum = 0., size = 0.;
     for (unsigned int cell = 0; cell < body->n_cells(); ++cell)
       {
-        const auto &law = materials.law(body->regions[cell]);
+        const auto &law = materials.linear_law(body->regions[cell]);
         for (unsigned int q = 0; q < rule.points.size(); ++q)
           products[cell] += mesh::cell_volume(*body, cell) * rule.weights[q]
                             * (law.stress(u.gradient(cell, rule.points[q]))

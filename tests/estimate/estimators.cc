@@ -29,8 +29,8 @@ material(const std::string &name, const double young_modulus)
 {
   scene::MaterialParameters result;
   result.name          = name;
-  result.young_modulus = young_modulus;
-  result.poisson_ratio = 0.25;
+  result.constants["Young modulus"] = young_modulus;
+  result.constants["Poisson ratio"] = 0.25;
   return result;
 }
 

@@ -34,8 +34,8 @@ namespace
       {
         scene.materials[i].name              = i == 0 ? "soft" : "hard";
         scene.materials[i].regions           = {i};
-        scene.materials[i].young_modulus     = i == 0 ? 1000. : 50000.;
-        scene.materials[i].poisson_ratio     = i == 0 ? 0.25 : 0.4;
+        scene.materials[i].constants["Young modulus"]     = i == 0 ? 1000. : 50000.;
+        scene.materials[i].constants["Poisson ratio"]     = i == 0 ? 0.25 : 0.4;
         scene.materials[i].thermal_expansion = 0.01;
       }
     if (!temperature.empty())

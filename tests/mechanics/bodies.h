@@ -62,8 +62,8 @@ namespace bodies
   {
     scene::MaterialParameters m;
     m.name          = name;
-    m.young_modulus = young_modulus;
-    m.poisson_ratio = poisson_ratio;
+    m.constants["Young modulus"] = young_modulus;
+    m.constants["Poisson ratio"] = poisson_ratio;
     return m;
   }
 

@@ -88,7 +88,7 @@ namespace
           cell->get_dof_indices(dofs);
           for (unsigned int q = 0; q < gradients.size(); ++q)
             {
-              const auto stress = materials.law(cell->material_id()).stress(gradients[q]);
+              const auto stress = materials.linear_law(cell->material_id()).stress(gradients[q]);
               for (unsigned int i = 0; i < dofs.size(); ++i)
                 forces[dofs[i]]
                   += stress * fe_values[u].symmetric_gradient(i, q) * fe_values.JxW(q);
@@ -100,7 +100,7 @@ namespace
 
   /** The same with MatrixFree, whose cells have one material here. */
   Vector
-  by_matrix_free(const fem::Space &space, const ConstitutiveLaw &law, const Vector &x)
+  by_matrix_free(const fem::Space &space, const LinearLaw &law, const Vector &x)
   {
     using Number = double;
     using Form   = dealii::MatrixFree<3, Number>;
@@ -119,7 +119,7 @@ namespace
     form.initialize_dof_vector(forces);
     values.copy_locally_owned_data_from(x);
     // lambda and mu
-    const auto   tangent = law.tangent(Tensor<2, 3>());
+    const auto   tangent = law.tangent_at_rest();
     const double lambda = tangent[0][0][1][1], mu = tangent[0][1][0][1];
     const std::function<
       void(const Form &, Vector &, const Vector &, const std::pair<unsigned int, unsigned int> &)>
@@ -189,7 +189,7 @@ main(int argc, char *argv[])
                       1e-13);
         else
           check_small(name + ", assembled, with MatrixFree",
-                      difference(y, by_matrix_free(space, materials.law(1), x)),
+                      difference(y, by_matrix_free(space, materials.linear_law(1), x)),
                       1e-13);
         if (degree == 1)
           continue;
@@ -201,7 +201,7 @@ main(int argc, char *argv[])
                       1e-13);
         else
           check_small(name + ", kernel, with MatrixFree",
-                      difference(y, by_matrix_free(space, materials.law(1), x)),
+                      difference(y, by_matrix_free(space, materials.linear_law(1), x)),
                       1e-13);
       }
 }

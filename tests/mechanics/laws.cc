@@ -3,7 +3,7 @@
 // Linear elasticity in one point, against the textbook's formulas in E and nu, and
 // who gets which material and temperature.
 
-#include "tetradapt/mechanics/linear_elastic.h"
+#include "tetradapt/laws/linear_elastic.h"
 #include "tetradapt/mechanics/material_map.h"
 
 #include "bodies.h"
@@ -23,7 +23,7 @@ namespace
   check_law(const double E, const double nu)
   {
     std::cout << "E = " << E << ", nu = " << nu << '\n';
-    const mechanics::LinearElastic law(E, nu);
+    const laws::LinearElastic law(E, nu);
 
     // Pulled along x to a stress of 2, free to contract.
     Tensor<2, 3> G;
@@ -59,7 +59,7 @@ namespace
       for (unsigned int j = 0; j < 3; ++j)
         G[i][j] = 0.01 * std::sin(1. + 3. * i + j);
     const auto strain = symmetrize(G), stress = law.stress(G);
-    const auto C         = law.tangent(G);
+    const auto C         = law.tangent_at_rest();
     double     asymmetry = 0.;
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int j = 0; j < 3; ++j)
@@ -100,31 +100,9 @@ namespace
     check("none without temperatures", !mechanics::MaterialMap(scene, body).has_thermal_strain());
   }
 
-  /** A law that one linear solve cannot deal with. */
-  class Stiffening : public mechanics::LinearElastic
-  {
-  public:
-    Stiffening() : LinearElastic(1., 0.3)
-    {
-    }
-    bool
-    is_linear() const override
-    {
-      return false;
-    }
-  };
-
   void
   refusals(const mesh::TetMesh &body)
   {
-    print_refusal("linear law", [] {
-      mechanics::require_linear(mechanics::LinearElastic(1., 0.3), material("a", 1., 0.3));
-    });
-    print_refusal("law that is not linear", [] {
-      auto m = material("a", 1., 0.3);
-      m.law  = "stiffening";
-      mechanics::require_linear(Stiffening(), m);
-    });
     const auto with = [&](const std::vector<scene::MaterialParameters> &materials) {
       scene::Scene scene;
       scene.materials = materials;
@@ -142,6 +120,18 @@ namespace
       auto m = a;
       m.law  = "plastic";
       with({m});
+    });
+    print_refusal("law of large deformation", [&] {
+      auto m = a;
+      m.law  = "neo-Hookean";
+      with({m});
+    });
+    print_refusal("linear law wanted of another", [&] {
+      scene::Scene scene;
+      scene.formulation      = scene::Formulation::finite_strain;
+      scene.materials        = {a};
+      scene.materials[0].law = "neo-Hookean";
+      mechanics::MaterialMap(scene, body).linear_law(0);
     });
     print_refusal("two for the rest", [&] { with({a, b}); });
     print_refusal("two for one region", [&] { with({of_region(a, 0), of_region(b, 0)}); });
@@ -163,7 +153,7 @@ namespace
     scene::Scene        scene;
     scene.materials = {a};
     const mechanics::MaterialMap map(scene, plain);
-    print_refusal("asked for another mesh's region", [&] { map.law(1); });
+    print_refusal("asked for another mesh's region", [&] { map.linear_law(1); });
   }
 } // namespace
 

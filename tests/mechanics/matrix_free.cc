@@ -92,13 +92,13 @@ namespace
 
   /** A stiffness without symmetry planes: positive, since it is C + v v. */
   SymmetricTensor<4, 3>
-  anisotropic(const ConstitutiveLaw &law, double seed)
+  anisotropic(const LinearLaw &law, double seed)
   {
     SymmetricTensor<2, 3> v;
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int j = 0; j <= i; ++j)
         v[i][j] = 20. * std::sin(seed + 3. * i + j);
-    return law.tangent(Tensor<2, 3>()) + dealii::outer_product(v, v);
+    return law.tangent_at_rest() + dealii::outer_product(v, v);
   }
 } // namespace
 
@@ -129,7 +129,7 @@ main(int argc, char *argv[])
   std::vector<SymmetricTensor<4, 3>> tensors;
   std::vector<unsigned int>          one, four;
   for (unsigned int i = 0; i < 5; ++i)
-    tensors.push_back(anisotropic(materials.law(i % 2), i));
+    tensors.push_back(anisotropic(materials.linear_law(i % 2), i));
   for (unsigned int cell = 0; cell < body->n_cells(); ++cell)
     {
       one.push_back(cell % 5);

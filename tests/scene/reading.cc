@@ -98,8 +98,8 @@ namespace
             && scene.materials[1].name == "bone");
     check("regions", scene.materials[0].regions == std::vector<int>{3, 4});
     check("included block goes on",
-          scene.materials[1].density == 0.25 && scene.materials[1].young_modulus == 17e3);
-    check("default stays", scene.materials[1].poisson_ratio == 0.3);
+          scene.materials[1].density == 0.25 && scene.materials[1].constants.at("Young modulus") == 17e3);
+    check("default stays", scene.materials[1].constants.at("Poisson ratio") == 0.3);
     check("files count from the including file",
           scene.mesh.files
             == std::vector<std::string>{(here / "parts/a.msh").string(),
@@ -141,7 +141,7 @@ namespace
                                     "Mesh/Files=b.vtk;parts/a.msh"});
     check("setting at the top", scene.degree == 1);
     check("setting with =", scene.supports[1].displacement[2] == "if(x==1, 2, 3)");
-    check("last setting wins", scene.materials[1].young_modulus == 2.);
+    check("last setting wins", scene.materials[1].constants.at("Young modulus") == 2.);
     check("files count from here",
           scene.mesh.files[0] == (std::filesystem::current_path() / "b.vtk").string());
     std::cout << scene.with_place("Materials/bone/Young modulus: text") << '\n';

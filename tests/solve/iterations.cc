@@ -70,6 +70,7 @@ namespace
     return ending == Ending::converged      ? "converged"
            : ending == Ending::stopped      ? "stopped"
            : ending == Ending::not_positive ? "not positive"
+           : ending == Ending::indefinite   ? "indefinite"
                                             : "not finite";
   }
 
@@ -301,7 +302,7 @@ namespace
     for (auto &force : forces)
       force[2] = 1.;
     const auto refusal = [&](const std::string &what, const double modulus, const SolverType type) {
-      const auto                    C = modulus * materials.law(0).tangent(Tensor<2, 3>());
+      const auto                    C = modulus * materials.linear_law(0).tangent_at_rest();
       const mechanics::TangentField tangents({C}, std::vector<unsigned int>(body->n_cells(), 0), 1);
       scene.solver.type = type;
       std::cout << what << ": ";

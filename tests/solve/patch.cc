@@ -43,7 +43,7 @@ namespace
           const int    region = body.regions[cell];
           Tensor<2, 3> G      = field.gradient(cell, b);
           G -= Tensor<2, 3>(materials.thermal_strain(region, body.points[body.cells[cell][i]]));
-          largest = std::max(largest, materials.law(region).stress(G).norm());
+          largest = std::max(largest, materials.linear_law(region).stress(G).norm());
         }
     return largest;
   }

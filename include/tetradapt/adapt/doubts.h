@@ -3,6 +3,7 @@
 #define tetradapt_adapt_doubts_h
 
 #include "tetradapt/mesh/nodal_field.h"
+#include "tetradapt/scene/scene.h"
 
 #include <mpi.h>
 
@@ -19,7 +20,8 @@ namespace tetradapt::adapt
 
   /**
    * What makes a solution doubtful although its error estimates are small: displacements,
-   * strains or rotations too large for linear theory (compare::Deformation), and slender parts of
+   * strains or rotations too large for linear theory (compare::Deformation) where @p scene is
+   * solved by that, and slender parts of
    * few linear elements across that bend or twist, where these are much too stiff and
    * estimators see a part of their error only.
    *
@@ -29,7 +31,9 @@ namespace tetradapt::adapt
    * @return empty if nothing is doubtful. Collective.
    */
   std::vector<Doubt>
-  doubts_about(const mesh::NodalField &displacement, MPI_Comm communicator);
+  doubts_about(const mesh::NodalField &displacement,
+               const scene::Scene     &scene,
+               MPI_Comm                communicator);
 } // namespace tetradapt::adapt
 
 #endif

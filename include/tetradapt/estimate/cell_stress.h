@@ -20,14 +20,14 @@ namespace tetradapt::estimate
    * strains whose shears are the engineering ones (2 eps_xy).
    *
    * In mixed form the stiffness is that at a given pressure, of 2 mu and gamma
-   * (mechanics::PressureForm), and the compliance that of
+   * (laws::PressureForm), and the compliance that of
    * the law (zero for a pressure that changes no volume).
    */
   struct ElasticMatrices
   {
-    explicit ElasticMatrices(const mechanics::ConstitutiveLaw &law);
+    explicit ElasticMatrices(const laws::LinearLaw &law);
     /** Of the mixed form. */
-    ElasticMatrices(const mechanics::ConstitutiveLaw &law, const mechanics::PressureForm &form);
+    ElasticMatrices(const laws::LinearLaw &law, const laws::PressureForm &form);
 
     /** stress = C strain */
     void

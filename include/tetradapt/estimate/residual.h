@@ -22,7 +22,7 @@ namespace tetradapt::estimate
    * materials the stiffer one decides, which makes the bound independent of their
    * contrast (Petzoldt, Adv. Comp. Math. 16, 2002). mu is the shear modulus.
    *
-   * In mixed form Q_F is that of mu and gamma (mechanics::PressureForm), and eta_K^2 has one more
+   * In mixed form Q_F is that of mu and gamma (laws::PressureForm), and eta_K^2 has one more
    * term, the square of the volume's residual:
    * int_K |div u_h - tr eps_thermal + c p_h|^2 / (1/(2 mu + gamma) + c), c = 1/(lambda - gamma).
    *

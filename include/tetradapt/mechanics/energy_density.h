@@ -16,7 +16,7 @@ namespace tetradapt::mechanics
   {
   public:
     /** Keeps a reference. */
-    EnergyDensity(const MaterialMap &materials, int region) : law(materials.law(region))
+    EnergyDensity(const MaterialMap &materials, int region) : law(materials.linear_law(region))
     {
       if (materials.is_mixed())
         form = materials.pressure_form(region);
@@ -43,7 +43,7 @@ namespace tetradapt::mechanics
     }
 
   private:
-    const ConstitutiveLaw      &law;
+    const LinearLaw      &law;
     std::optional<PressureForm> form;
   };
 } // namespace tetradapt::mechanics

@@ -2,8 +2,6 @@
 #ifndef tetradapt_mechanics_energy_norm_h
 #define tetradapt_mechanics_energy_norm_h
 
-#include "tetradapt/mechanics/constitutive_law.h"
-
 #include <optional>
 
 namespace tetradapt::mechanics
@@ -36,10 +34,6 @@ namespace tetradapt::mechanics
       return error <= noise ? std::optional<double>(0.) : std::nullopt;
     }
   };
-
-  /** The mean of a law's three shear moduli at rest, for the scale of EnergyNorm::noise. */
-  double
-  shear_modulus(const ConstitutiveLaw &law);
 } // namespace tetradapt::mechanics
 
 #endif

@@ -51,10 +51,16 @@ namespace tetradapt::mechanics
    * of these points, so that another mesh is another problem, whose energies cannot be
    * compared.
    *
+   * @param deformation of the body, at whose deformed positions the forces act: for their moments.
+   *        Null: those at rest.
+   *
    * Collective.
    */
   NodalLoads
-  assemble_loads(const scene::Scene &scene, const MaterialMap &materials, const fem::Space &space);
+  assemble_loads(const scene::Scene     &scene,
+                 const MaterialMap      &materials,
+                 const fem::Space       &space,
+                 const mesh::NodalField *deformation = nullptr);
 } // namespace tetradapt::mechanics
 
 #endif

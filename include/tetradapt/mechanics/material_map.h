@@ -3,7 +3,7 @@
 #define tetradapt_mechanics_material_map_h
 
 #include "tetradapt/core/expression.h"
-#include "tetradapt/mechanics/constitutive_law.h"
+#include "tetradapt/laws/constitutive_law.h"
 #include "tetradapt/mesh/tet_mesh.h"
 #include "tetradapt/scene/scene.h"
 
@@ -14,6 +14,12 @@
 namespace tetradapt::mechanics
 {
   class VolumeDensity;
+
+  using dealii::SymmetricTensor;
+  using dealii::Tensor;
+  using laws::ConstitutiveLaw;
+  using laws::LinearLaw;
+  using laws::PressureForm;
 
   /**
    * The region ids that a material or a load on the body names; all of them if
@@ -48,6 +54,15 @@ namespace tetradapt::mechanics
     /** The law of region @p region. */
     const ConstitutiveLaw &
     law(int region) const;
+
+    /** The same where only a law for small strains can be computed with.
+     * @throws core::InputError naming the material for another law. */
+    const LinearLaw &
+    linear_law(int region) const;
+
+    /** Whether all laws are linear, so that one linear solve suffices. */
+    bool
+    is_linear() const;
 
     const scene::MaterialParameters &
     parameters(int region) const;
@@ -89,6 +104,7 @@ namespace tetradapt::mechanics
     {
       const scene::MaterialParameters *parameters;
       std::shared_ptr<ConstitutiveLaw> law;
+      const LinearLaw                 *linear; ///< the same object; null for another law
     };
     const Entry &
     entry(int region) const;

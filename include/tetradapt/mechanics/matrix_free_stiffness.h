@@ -10,11 +10,13 @@
 
 namespace tetradapt::mechanics
 {
+  enum class TangentForm; // of the kernel
+
   /**
    * The stiffness int B^T C B of degree 2 with the supports built in, without its entries:
    * a product integrates over the cells again, many cells at a time in the lanes of vector
    * registers, from nine numbers of geometry and the tangent. Four quadrature points, which
-   * is exact for constant tangents. Equal to assemble()'s matrix to rounding: constrained
+   * is exact for constant tangents. With full tangents the stiffness is int dv : dP/dF : du. Equal to assemble()'s matrix to rounding: constrained
    * rows and columns hold only their diagonal entry.
    *
    * On several ranks every rank works on all cells that touch its nodes, so that a product
@@ -72,7 +74,7 @@ namespace tetradapt::mechanics
     fem::FixedUnknowns              fixed;
     unsigned int                    n_batches     = 0;
     unsigned int                    n_own_batches = 0; ///< these, first, have no ghosts
-    bool                            isotropic, one_tangent;
+    TangentForm                     form; ///< how tangents are stored
     dealii::AlignedVector<unsigned> nodes;
     std::vector<unsigned char>      at_end; ///< of batches: whether they have the last node
     dealii::AlignedVector<Number>   gradients, tangent_values;

@@ -37,6 +37,9 @@ namespace tetradapt::mechanics
    * has any.
    *
    * @param forces F, one a field node, complete on the nodes that this rank owns.
+   * @param internal_forces int P : grad N of laws that are not linear, likewise: then moments are
+   *        those about the deformed positions, where forces act. Null for linear laws, whose
+   *        stress at supports is computed here.
    * @param with_layer_energy whether that is wanted.
    * Collective; the same on every rank.
    */
@@ -45,6 +48,7 @@ namespace tetradapt::mechanics
                     const MaterialMap                       &materials,
                     const PrescribedDisplacement            &prescribed,
                     const std::vector<dealii::Tensor<1, 3>> &forces,
+                    const std::vector<dealii::Tensor<1, 3>> *internal_forces,
                     const mesh::NodalField                  &displacement,
                     unsigned int                             n_supports,
                     bool                                     with_layer_energy);

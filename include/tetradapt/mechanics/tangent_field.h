@@ -17,7 +17,8 @@ namespace tetradapt::mechanics
    * The tangents that a stiffness is made of: derivatives of the stress by the strain, each
    * with both minor and the major symmetry. Either one a cell, which for linear laws is one
    * a region, or one at each of the four quadrature points of every cell, as laws need
-   * whose tangent follows the strain.
+   * whose tangent follows the strain. Or derivatives dP/dF of laws that are not linear, which
+   * have the major symmetry only: is_full().
    *
    * Quadrature point q of a cell has barycentric coordinate q = (5 + 3 sqrt 5) / 20, the
    * others (5 - sqrt 5) / 20 (Hammer and Stroud 1956); all four weigh the same.
@@ -35,6 +36,28 @@ namespace tetradapt::mechanics
     TangentField(const std::vector<SymmetricTensor<4, 3>> &tensors,
                  std::vector<unsigned int>                 which,
                  unsigned int                              n_points);
+
+    /**
+     * Derivatives dP/dF. @param first has an entry a cell of the mesh: the number in @p tangents
+     * of the cell's first one, the others follow. Only the cells that a rank works on need one.
+     * @param n_points is 1 or 4.
+     */
+    TangentField(std::vector<laws::Tangent> tangents,
+                 std::vector<unsigned int>      first,
+                 unsigned int                   n_points);
+
+    /** Whether full() is to be taken instead of at(). */
+    bool
+    is_full() const
+    {
+      return !full_tangents.empty();
+    }
+    /** dP/dF in cell @p cell at point @p q. */
+    const laws::Tangent &
+    full(unsigned int cell, unsigned int q) const
+    {
+      return full_tangents[which[cell] + (n_points == 1 ? 0 : q)];
+    }
 
     /** Tangents in each cell: 1 or 4. */
     unsigned int
@@ -57,10 +80,11 @@ namespace tetradapt::mechanics
     }
 
   private:
-    std::vector<VoigtMatrix>  matrices;
-    std::vector<unsigned int> which;
-    unsigned int              n_points;
-    bool                      isotropic;
+    std::vector<VoigtMatrix>       matrices;
+    std::vector<laws::Tangent> full_tangents;
+    std::vector<unsigned int>      which;
+    unsigned int                   n_points;
+    bool                           isotropic;
   };
 } // namespace tetradapt::mechanics
 

@@ -45,7 +45,7 @@ namespace tetradapt::mesh
   /**
    * The pressure of a mixed solution: p = -(lambda - gamma) tr(eps - eps_thermal), with lambda
    * the first Lame parameter and gamma the part of it that the displacement keeps
-   * (mechanics::PressureForm), so that with e = eps - eps_thermal the stress is
+   * (laws::PressureForm), so that with e = eps - eps_thermal the stress is
    * 2 mu e + (gamma tr e - p) I. It stays finite where lambda does not. It is linear in each cell
    * and continuous in each region. What is reported as pressure is minus a third of the stress's
    * trace.

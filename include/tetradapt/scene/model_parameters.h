@@ -2,6 +2,9 @@
 #ifndef tetradapt_scene_model_parameters_h
 #define tetradapt_scene_model_parameters_h
 
+#include "tetradapt/laws/constants.h"
+#include "tetradapt/laws/formulation.h"
+
 #include <deal.II/base/point.h>
 
 #include <array>
@@ -73,12 +76,7 @@ namespace tetradapt::scene
     }
   };
 
-  /** The unknowns of a linear system. */
-  enum class Formulation
-  {
-    displacement, ///< the displacement alone
-    mixed         ///< the displacement and the pressure: no locking up to incompressibility
-  };
+  using laws::Formulation;
 
   /** A material and the regions that it fills. */
   struct MaterialParameters
@@ -86,11 +84,15 @@ namespace tetradapt::scene
     std::string              name;
     std::vector<int>         regions;       ///< region ids; both lists empty: everywhere else
     std::vector<std::string> region_groups; ///< names of regions
-    std::string              law               = "linear elastic"; ///< name in the factory of laws
-    double                   young_modulus     = 1.;               ///< E, pressure unit
-    double                   poisson_ratio     = 0.3;              ///< nu
-    double                   density           = 0.;               ///< mass per volume
-    double                   thermal_expansion = 0.;               ///< strain per degree
+    std::string              law = "linear elastic"; ///< name in laws::law_catalogue()
+    laws::Constants      constants;              ///< of the law; see laws::make_law()
+    double                   density           = 0.; ///< mass per volume
+    double                   thermal_expansion = 0.; ///< strain per degree
+
+    /** Young's modulus and Poisson's ratio at rest.
+     * @throws core::InputError if there is no such law, or it refuses its constants. */
+    laws::ModuliAtRest
+    moduli_at_rest() const;
 
     void
     declare(dealii::ParameterHandler &prm) const;

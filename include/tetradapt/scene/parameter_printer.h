@@ -18,12 +18,9 @@ namespace tetradapt::scene
   };
 
   /** Prints all parameters with defaults and documentation; blocks with names
-   * that users choose appear once, called <name>.
-   * @param laws names of the constitutive laws, which this room does not know. */
+   * that users choose appear once, called <name>. */
   void
-  print_parameters(std::ostream                   &stream,
-                   ParameterFormat                 format,
-                   const std::vector<std::string> &laws);
+  print_parameters(std::ostream &stream, ParameterFormat format);
 
   /** All parameters of @p scene in the format of a scene's file: reading them
    * again gives the same scene (from the same working directory). */

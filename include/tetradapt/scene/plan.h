@@ -29,6 +29,7 @@ namespace tetradapt::scene
       thermal_strain,     ///< evaluating temperatures
       multigrid_solver,   ///< conjugate gradients with algebraic multigrid
       direct_solver,
+      newton_method,        ///< of laws that are not linear: tangents, steps, load steps
       reference_mesh,       ///< making the reference's own mesh
       reference_refinement, ///< ... by TetGen from the first mesh
       hexahedral_reference, ///< solving on an adaptive hexahedral mesh

@@ -79,6 +79,8 @@ namespace tetradapt::solve
   struct IterationResult
   {
     bool converged = false;
+    /** Ended by a direction of negative energy. */
+    bool is_indefinite = false;
     /** Ended early by IterationLimits::give_up_from. */
     bool         gave_up    = false;
     unsigned int iterations = 0;
@@ -98,7 +100,8 @@ namespace tetradapt::solve
   {
     converged,
     stopped,      ///< by the control
-    not_positive, ///< the matrix, or the preconditioner, to rounding
+    not_positive, ///< the preconditioner, or the matrix in rounding
+    indefinite,   ///< the matrix has a direction of negative energy
     not_finite
   };
 
@@ -231,7 +234,7 @@ namespace tetradapt::solve
         if (!std::isfinite(curvature))
           throw NoStep{Ending::not_finite};
         if (!(curvature > 0.))
-          throw NoStep{Ending::not_positive};
+          throw NoStep{curvature < 0. ? Ending::indefinite : Ending::not_positive};
         control.set_curvature(curvature);
       }
     };

@@ -15,8 +15,11 @@ namespace tetradapt::solve
   public:
     /** Factorises. Collective. @throws core::NumericalError if @p matrix is not positive
      * definite, or if a pivot is below 1e-14 of its diagonal entry, so that nothing but
-     * rounding is left of it: a body that is free to move is never solved. */
-    DirectSolver(const mechanics::BlockMatrix &matrix, const fem::Space &space);
+     * rounding is left of it: a body that is free to move is never solved.
+     * @param may_be_indefinite the error is IndefiniteMatrix then. */
+    DirectSolver(const mechanics::BlockMatrix &matrix,
+                 const fem::Space             &space,
+                 bool                          may_be_indefinite = false);
     ~DirectSolver();
 
     /** Solves matrix solution = right-hand side. Collective. */

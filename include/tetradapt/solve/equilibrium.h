@@ -62,6 +62,8 @@ namespace tetradapt::solve
     const mechanics::PrescribedDisplacement &prescribed;
     /** Of all loads, one a field node, complete on the nodes that this rank owns. */
     const std::vector<dealii::Tensor<1, 3>> &forces;
+    /** Of laws that are not linear; see mechanics::compute_reactions(). */
+    const std::vector<dealii::Tensor<1, 3>> *internal_forces;
     /** Of each load of the scene, the same on every rank. */
     const std::vector<mechanics::Resultant> &loads;
   };

@@ -72,7 +72,8 @@ namespace tetradapt::solve
      * Where the solver is chosen automatically and conjugate gradients do not converge, or
      * are predicted to need more than the allowed iterations, the matrix is factorised after
      * all, up to 150 000 unknowns, and a warning says so.
-     * @throws core::NumericalError if it does not converge.
+     * @throws core::NumericalError if it does not converge; IndefiniteMatrix where full tangents
+     *         are not positive definite.
      */
     LinearResult
     solve(const Vector      &right_hand_side,

@@ -12,7 +12,7 @@ namespace tetradapt::solve
 {
   /**
    * @p scene with each material replaced by one of the same shear modulus and with the gamma of
-   * mechanics::PressureForm as Lame's first constant, in displacement form: its stiffness is what
+   * laws::PressureForm as Lame's first constant, in displacement form: its stiffness is what
    * the mixed form has in addition to the pressure, so that assembly, thermal forces and multigrid
    * serve both.
    */
@@ -34,7 +34,7 @@ namespace tetradapt::solve
 
   /**
    * Solves the equations of the mixed form with the elements of Taylor and Hood (see
-   * doc/mixed_form.md and mechanics::PressureForm)
+   * doc/mixed_form.md and laws::PressureForm)
    *
    *   A u + B^T p = f,   A = int 2 mu eps : eps + gamma div div,   B = -int q div u,
    *   B u - C p   = g,   C = int 1/(lambda - gamma) p q,           g = -int q tr eps_thermal,

@@ -14,7 +14,10 @@
 
 namespace tetradapt::solve
 {
-  /** A static equilibrium on one mesh. Every MPI rank holds all of it. */
+  /** A static equilibrium on one mesh. Every MPI rank holds all of it. What is said of energies
+   * holds for linear laws; of others, energy is 2 F(u_h) - 2 W(u_h) with the stored energy W, twice
+   * the negative potential, or 2 W where supports prescribe displacements, strain_energy is W,
+   * and norm is the root of 2 W. */
   struct StaticSolution
   {
     std::shared_ptr<mesh::NodalField> displacement;

@@ -18,10 +18,11 @@ namespace tetradapt::solve
   struct StaticSolution;
 
   /**
-   * The linear system of a static problem on one mesh, with what solves it: numbering,
+   * The system of a static problem on one mesh, with what solves it: numbering,
    * matrix, supports, factorisation or preconditioner. Made once a mesh, used for the
    * displacement and again for dual problems, which differ in their right-hand side
-   * only. Collective over the communicator.
+   * only. Laws that are not linear have a system a step instead, and no dual problems.
+   * Collective over the communicator.
    */
   class StaticSystem
   {
@@ -49,7 +50,8 @@ namespace tetradapt::solve
                  const core::Log                     &log);
     ~StaticSystem();
 
-    /** The displacement under the scene's loads. @param start first iterate, or null. */
+    /** The displacement under the scene's loads: of linear laws by one linear solve, of others
+     * by Newton's method, which @p stop does not concern. @param start first iterate, or null. */
     StaticSolution
     solve(const mesh::NodalField *start, const Stop &stop) const;
 
@@ -81,6 +83,10 @@ namespace tetradapt::solve
     prescribed() const;
 
   private:
+    /** @throws core::InputError if a law is not linear. */
+    void
+    require_linear() const;
+
     struct Data;
     std::unique_ptr<Data> data;
   };

@@ -204,7 +204,7 @@ namespace tetradapt::estimate
       {
         const int region = surplus.mesh().regions[cell];
         if (tangents.count(region) == 0)
-          tangents[region] = to_voigt(materials.law(region).tangent(Tensor<2, 3>()));
+          tangents[region] = to_voigt(materials.linear_law(region).tangent_at_rest());
       }
     if (surplus.degree() == 1)
       make_batches(surplus, n_nodes, slice, tangents, quadratic);

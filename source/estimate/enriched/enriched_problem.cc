@@ -101,7 +101,7 @@ namespace tetradapt::estimate
       Tensor<2, 3>
       thermal_stress(unsigned int cell, const double strain) const
       {
-        return Tensor<2, 3>(materials.law(mesh.regions[cell])
+        return Tensor<2, 3>(materials.linear_law(mesh.regions[cell])
                               .stress(strain * Tensor<2, 3>(dealii::unit_symmetric_tensor<3>())));
       }
 

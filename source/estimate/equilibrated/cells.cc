@@ -53,7 +53,7 @@ namespace tetradapt::estimate
   CellStates::Region
   CellStates::make_region(const int id) const
   {
-    Region region{&materials.law(id), {}, 0., {}, false, {}};
+    Region region{&materials.linear_law(id), {}, 0., {}, false, {}};
     // A stress is the sum of its components times these.
     std::array<SymmetricTensor<2, 3>, 6> unit;
     for (unsigned int p = 0; p < 6; ++p)

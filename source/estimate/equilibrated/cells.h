@@ -113,7 +113,7 @@ namespace tetradapt::estimate
   private:
     struct Region
     {
-      const mechanics::ConstitutiveLaw *law;
+      const laws::LinearLaw *law;
       double                            compliance[6][6]; ///< xx, yy, zz, yz, zx, xy
       double                            largest_compliance;
       Tensor<1, 3>                      constant_force;

@@ -159,7 +159,7 @@ namespace tetradapt::estimate
                 const mesh::EdgeTable            &edges,
                 const CellFaces                  &faces,
                 const Lifting                    &lifting,
-                const mechanics::ConstitutiveLaw &law,
+                const laws::LinearLaw &law,
                 const unsigned int                cell)
     {
       const mesh::TetMesh          &mesh = u_h.mesh();
@@ -240,7 +240,7 @@ namespace tetradapt::estimate
               touched                  = touched || (which != none && lifting.on_face[which] != 0);
             }
           if (touched)
-            sum += cell_energy(u_h, edges, faces, lifting, materials.law(mesh.regions[cell]), cell);
+            sum += cell_energy(u_h, edges, faces, lifting, materials.linear_law(mesh.regions[cell]), cell);
         }
     return std::sqrt(sum);
   }

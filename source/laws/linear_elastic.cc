@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "tetradapt/mechanics/linear_elastic.h"
+#include "tetradapt/laws/linear_elastic.h"
 
 #include "tetradapt/core/exceptions.h"
 
 #include <cmath>
 
-namespace tetradapt::mechanics
+namespace tetradapt::laws
 {
   LinearElastic::LinearElastic(double young_modulus, double poisson_ratio)
-    : inverse_lambda((1. + poisson_ratio) * (1. - 2. * poisson_ratio)
+    : moduli{young_modulus, poisson_ratio},
+      inverse_lambda((1. + poisson_ratio) * (1. - 2. * poisson_ratio)
                      / (young_modulus * poisson_ratio)),
       mu(young_modulus / (2. * (1. + poisson_ratio)))
   {
@@ -23,9 +24,9 @@ namespace tetradapt::mechanics
   }
 
   bool
-  LinearElastic::is_linear() const
+  LinearElastic::supports(const Formulation formulation) const
   {
-    return true;
+    return formulation == Formulation::displacement || formulation == Formulation::mixed;
   }
 
   SymmetricTensor<2, 3>
@@ -36,10 +37,16 @@ namespace tetradapt::mechanics
   }
 
   SymmetricTensor<4, 3>
-  LinearElastic::tangent(const Tensor<2, 3> &) const
+  LinearElastic::tangent_at_rest() const
   {
     const auto I = dealii::unit_symmetric_tensor<3>();
     return lambda * outer_product(I, I) + 2. * mu * dealii::identity_tensor<3>();
+  }
+
+  ModuliAtRest
+  LinearElastic::moduli_at_rest() const
+  {
+    return moduli;
   }
 
   double
@@ -67,4 +74,4 @@ namespace tetradapt::mechanics
     const double kept = inverse_lambda * mu > 0.5 ? 0.5 / inverse_lambda : mu;
     return PressureForm{mu, kept, inverse_lambda / (1. - kept * inverse_lambda)};
   }
-} // namespace tetradapt::mechanics
+} // namespace tetradapt::laws

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#ifndef tetradapt_mechanics_linear_elastic_h
-#define tetradapt_mechanics_linear_elastic_h
+#ifndef tetradapt_laws_linear_elastic_h
+#define tetradapt_laws_linear_elastic_h
 
-#include "tetradapt/mechanics/constitutive_law.h"
+#include "tetradapt/laws/constitutive_law.h"
 
-namespace tetradapt::mechanics
+namespace tetradapt::laws
 {
   /**
    * Isotropic linear elasticity with small strains:
    * stress = lambda tr(strain) I + 2 mu strain, strain = (G + G^T)/2.
    *
-   * With nu = 0.5 the strain determines the deviator of the stress only: stress(), tangent()
-   * and energy_density() give what belongs to that, and complementary_density() is that of the
-   * deviator, for a pressure does not strain the material. Such a material can be solved for in
-   * mixed form only.
+   * With nu = 0.5 the strain determines the deviator of the stress only: stress(),
+   * tangent_at_rest() and energy_density() give what belongs to that, and complementary_density()
+   * is that of the deviator, for a pressure does not strain the material. Such a material can be
+   * solved for in mixed form only.
    */
-  class LinearElastic : public ConstitutiveLaw
+  class LinearElastic : public LinearLaw
   {
   public:
     /** @param young_modulus E > 0. @param poisson_ratio nu in (-1, 0.5].
@@ -23,11 +23,13 @@ namespace tetradapt::mechanics
     LinearElastic(double young_modulus, double poisson_ratio);
 
     bool
-    is_linear() const override;
+    supports(Formulation formulation) const override;
     SymmetricTensor<2, 3>
     stress(const Tensor<2, 3> &G) const override;
     SymmetricTensor<4, 3>
-    tangent(const Tensor<2, 3> &G) const override;
+    tangent_at_rest() const override;
+    ModuliAtRest
+    moduli_at_rest() const override;
     double
     energy_density(const SymmetricTensor<2, 3> &strain) const override;
     double
@@ -38,10 +40,11 @@ namespace tetradapt::mechanics
     pressure_form() const override;
 
   private:
+    ModuliAtRest moduli;
     double inverse_lambda; ///< 1 / lambda, infinite for nu = 0
     double lambda;         ///< first Lame parameter; -2/3 mu for nu = 0.5
     double mu;             ///< shear modulus
   };
-} // namespace tetradapt::mechanics
+} // namespace tetradapt::laws
 
 #endif
