@@ -43,6 +43,33 @@ namespace tetradapt::adapt
         }
       return deviation <= 1e-9 * largest;
     }
+
+    /** Whether the faces that carry a selection make flat parts which meet at large angles only, as
+     * those of a block do: nodes are held along the same normals on every mesh. */
+    bool
+    is_flat(const mesh::TetMesh &mesh, const std::string &selection)
+    {
+      std::vector<mesh::Tensor<1, 3>> normals;
+      for (const mesh::BoundaryFace &face : mesh.faces)
+        {
+          const auto &names = mesh.patches[face.patch].selections;
+          if (std::find(names.begin(), names.end(), selection) == names.end())
+            continue;
+          const auto area     = mesh::face_area_vector(mesh, face);
+          const auto normal   = area / area.norm();
+          const bool is_known = std::any_of(normals.begin(), normals.end(), [&](const auto &other) {
+            return (normal - other).norm() < 1e-9;
+          });
+          if (is_known)
+            continue;
+          // Faces at small angles share a mean normal, which depends on the mesh.
+          for (const auto &other : normals)
+            if (normal * other > 0.5)
+              return false;
+          normals.push_back(normal);
+        }
+      return true;
+    }
   } // namespace
 
   std::string
@@ -56,8 +83,17 @@ namespace tetradapt::adapt
       if (load.type == scene::LoadType::nodal_force)
         return "the forces at nodes of Loads/" + load.name + " grow with the mesh";
     for (const auto &support : scene.supports)
+      if (support.type == scene::SupportType::sliding
+          && (!is_flat(mesh, "Supports/" + support.name)
+              || !is_linear(core::Expression(support.normal_displacement,
+                                             "Supports/" + support.name + "/Normal displacement"),
+                            mesh,
+                            "Supports/" + support.name)))
+        return "the nodes of Supports/" + support.name
+               + " are held along normals that differ from mesh to mesh";
+    for (const auto &support : scene.supports)
       for (unsigned int d = 0; d < 3; ++d)
-        if (support.components[d]
+        if (support.type == scene::SupportType::fixed && support.components[d]
             && !is_linear(core::Expression(support.displacement[d],
                                            "Supports/" + support.name + "/Displacement"),
                           mesh,

@@ -217,7 +217,7 @@ namespace tetradapt::adapt
         scene, *materials, mesh, scene.degree, communicator, in_cycle(number));
       cycle.solution = system->solve(start.get(), stop);
       // The energy is 2 F - a without displacements that are prescribed: StaticSolution.
-      cycle.energy = {system->prescribed().is_homogeneous()
+      cycle.energy = {system->is_driven_by_loads()
                         ? -0.5 * cycle.solution.energy
                         : 0.5 * cycle.solution.energy - cycle.solution.external_work,
                       cycle.solution.algebraic_error};
@@ -227,6 +227,7 @@ namespace tetradapt::adapt
     cycle.record.dofs             = cycle.solution.n_dofs;
     cycle.record.energy           = cycle.solution.energy;
     cycle.record.strain_energy    = cycle.solution.strain_energy;
+    cycle.record.spring_energy    = cycle.solution.spring_energy;
     cycle.record.max_displacement = largest_norm(cycle.solution.displacement->values);
     cycle.record.iterations       = cycle.solution.iterations;
     if (cycle.solution.iterations > 0)

@@ -148,10 +148,17 @@ namespace tetradapt::adapt
       if (!load.total.is_converged() || !load.total.remark.empty())
         return false;
     for (const auto &support : scene.supports)
-      if (!core::VectorExpression(support.displacement,
-                                  "Supports/" + support.name + "/Displacement")
-             .is_constant())
-        return false;
+      {
+        const std::string path = "Supports/" + support.name;
+        if (!core::VectorExpression(support.displacement, path + "/Displacement").is_constant())
+          return false;
+        // Tractions of springs along normals that vary are no polynomials either.
+        if (support.type == scene::SupportType::spring
+            && (!core::Expression(support.spring.stiffness, path + "/Stiffness").is_constant()
+                || (support.spring.direction == scene::SpringDirection::normal
+                    && scene.mesh.projection != scene::MeshParameters::Projection::none)))
+          return false;
+      }
     return true;
   }
 } // namespace tetradapt::adapt

@@ -5,6 +5,8 @@
 #include "tetradapt/estimate/goal_points.h"
 #include "tetradapt/mechanics/held_loads.h"
 #include "tetradapt/mechanics/point_conditions.h"
+#include "tetradapt/mechanics/sliding_normals.h"
+#include "tetradapt/mechanics/springs.h"
 #include "tetradapt/mechanics/surface_loads.h"
 
 namespace tetradapt::adapt
@@ -18,6 +20,10 @@ namespace tetradapt::adapt
     for (const auto &warning : mechanics::held_load_warnings(scene, *mesh))
       log.warning(scene.with_place(warning));
     for (const auto &warning : mechanics::held_point_force_warnings(scene, *mesh))
+      log.warning(scene.with_place(warning));
+    for (const auto &warning : mechanics::sliding_warnings(scene, *mesh))
+      log.warning(scene.with_place(warning));
+    for (const auto &warning : mechanics::check_springs(scene, *mesh))
       log.warning(scene.with_place(warning));
     const compare::ExcludedRegion excluded(scene, *mesh);
     for (const auto &goal : scene.goals)

@@ -38,7 +38,7 @@ namespace tetradapt::cli
       for (const auto &warning : scene.warnings())
         log.warning(warning);
       adapt::check_placement(scene, made.mesh, log);
-      mechanics::prescribe(scene.supports, *made.mesh, nullptr);
+      mechanics::prescribe(scene.supports, *made.mesh, nullptr, scene.mesh);
     }
   } // namespace
 

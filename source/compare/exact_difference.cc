@@ -92,7 +92,8 @@ namespace tetradapt::compare
               sums[4] += weight * G.norm_square();
               sums[6] += 2. * mu * weight * G.norm_square();
               sums[5]
-                += weight * materials.linear_law(mesh.regions[cell]).energy_density(symmetrize(G - free));
+                += weight
+                   * materials.linear_law(mesh.regions[cell]).energy_density(symmetrize(G - free));
             }
           result.cell_energy[cell] = std::sqrt(std::max(energy, 0.));
           sums[2] += energy;

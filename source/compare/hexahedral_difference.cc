@@ -138,14 +138,14 @@ namespace tetradapt::compare
           }
       }
 
-      const mesh::NodalField           &u_h;
-      const FieldEvaluator              evaluator;
-      const mesh::TetMesh              &mesh;
-      const mesh::HexahedralField      &reference;
-      const mechanics::MaterialMap     &materials;
-      unsigned int                      cell = 0;
-      const laws::LinearLaw *law  = nullptr;
-      double                            sum  = 0.;
+      const mesh::NodalField       &u_h;
+      const FieldEvaluator          evaluator;
+      const mesh::TetMesh          &mesh;
+      const mesh::HexahedralField  &reference;
+      const mechanics::MaterialMap &materials;
+      unsigned int                  cell = 0;
+      const laws::LinearLaw        *law  = nullptr;
+      double                        sum  = 0.;
     };
   } // namespace
 

@@ -7,6 +7,7 @@
 
 #include <deal.II/base/config.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -85,6 +86,43 @@ namespace tetradapt::compare
         text("radius", place.excluded_radius.value_or(-1.));
     }
 
+    /** Whether the support acts along normals, which are those of a projection surface. */
+    bool
+    takes_normals(const scene::SupportParameters &support)
+    {
+      return support.type == scene::SupportType::sliding
+             || support.type == scene::SupportType::spring;
+    }
+
+    /** Nothing for fixed supports: keys of other scenes stay as they are. */
+    void
+    describe_type(CanonicalText                  &text,
+                  const scene::SupportParameters &support,
+                  const scene::MeshParameters    &mesh)
+    {
+      if (support.type == scene::SupportType::fixed)
+        return;
+      text("support type", static_cast<int>(support.type));
+      text("normal displacement", support.normal_displacement);
+      if (takes_normals(support))
+        {
+          text("feature angle", mesh.feature_angle);
+          text("projection", static_cast<int>(mesh.projection));
+          text.list("functions", mesh.projection_functions);
+        }
+      const scene::RigidParameters &rigid = support.rigid;
+      if (rigid.reference_point)
+        text("reference point", *rigid.reference_point);
+      for (const auto *motion : {&rigid.translation, &rigid.rotation})
+        for (const auto &component : *motion)
+          {
+            text("prescribed", component.has_value());
+            text("motion", component.value_or(0.));
+          }
+      text.list("force", rigid.force);
+      text.list("moment", rigid.moment);
+    }
+
     void
     describe_model(CanonicalText &text, const scene::Scene &scene)
     {
@@ -107,6 +145,12 @@ namespace tetradapt::compare
           describe(text, support.place);
           text.list("components", support.components);
           text.list("displacement", support.displacement);
+          describe_type(text, support, scene.mesh);
+          if (support.type == scene::SupportType::spring)
+            {
+              text("spring", support.spring.stiffness);
+              text("direction", static_cast<int>(support.spring.direction));
+            }
         }
       for (const auto &load : scene.loads)
         {
@@ -292,14 +336,14 @@ namespace tetradapt::compare
     hash.add(text.str());
     if (hexahedra)
       return hash.hex();
-    if (scene.reference.route == scene::ReferenceParameters::MeshRoute::refine)
-      {
-        add_mesh(hash, initial_mesh);
-        if (scene.mesh.projection == scene::MeshParameters::Projection::surface)
-          add_file(hash,
-                   scene.mesh.projection_file.empty() ? scene.mesh.files.front()
-                                                      : scene.mesh.projection_file);
-      }
+    const bool refines = scene.reference.route == scene::ReferenceParameters::MeshRoute::refine;
+    if (refines)
+      add_mesh(hash, initial_mesh);
+    if (scene.mesh.projection == scene::MeshParameters::Projection::surface
+        && (refines || std::any_of(scene.supports.begin(), scene.supports.end(), takes_normals)))
+      add_file(hash,
+               scene.mesh.projection_file.empty() ? scene.mesh.files.front()
+                                                  : scene.mesh.projection_file);
     if (scene.reference.route == scene::ReferenceParameters::MeshRoute::file)
       add_mesh_file(hash, scene.reference.file);
     return hash.hex();

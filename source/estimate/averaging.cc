@@ -24,7 +24,7 @@ namespace tetradapt::estimate
     const mesh::NodalField       &u_h       = input.comparison.displacement();
     const mechanics::MaterialMap &materials = input.comparison.material_map();
     const CellStress              stress(u_h, materials);
-    const GivenLoads              loads(input.scene, materials, u_h.mesh());
+    const GivenLoads              loads(input.scene, materials, u_h);
     const AveragedStress          averages(u_h, stress, &loads);
     Estimate                      result;
     result.indicators = stress_difference(

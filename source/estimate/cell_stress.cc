@@ -31,8 +31,7 @@ namespace tetradapt::estimate
     shear_modulus = (stiffness[3][3] + stiffness[4][4] + stiffness[5][5]) / 3.;
   }
 
-  ElasticMatrices::ElasticMatrices(const laws::LinearLaw &law,
-                                   const laws::PressureForm    &form)
+  ElasticMatrices::ElasticMatrices(const laws::LinearLaw &law, const laws::PressureForm &form)
     : shear_modulus(form.shear_modulus)
   {
     const double mu   = form.shear_modulus;

@@ -41,13 +41,11 @@ namespace tetradapt::estimate
       difference[i] += supported[i];
 
     Estimate result;
-    result.indicators    = problem.space().cell_products(difference, difference);
-    double       squares = 0.;
-    const double missing
-      = correction.norm > 0. ? std::pow(correction.error / correction.norm, 2) : 0.;
+    result.indicators = problem.space().cell_products(difference, difference);
+    double squares    = 0.;
     for (double &indicator : result.indicators)
       {
-        indicator = std::max(indicator, 0.) * (1. + missing);
+        indicator = std::max(indicator, 0.) * (1. + correction.missing);
         squares += indicator;
         indicator = std::sqrt(indicator);
       }

@@ -14,7 +14,7 @@ namespace tetradapt::estimate
   {
     if (!scene::moves_supports(scene))
       return Drive::loads;
-    return scene.loads.empty() ? Drive::displacement : Drive::both;
+    return scene.loads.empty() && !scene::loads_supports(scene) ? Drive::displacement : Drive::both;
   }
 
 
@@ -36,7 +36,8 @@ namespace tetradapt::estimate
   {
     const auto is_temperature
       = [](const scene::LoadParameters &load) { return load.type == scene::LoadType::temperature; };
-    if (std::all_of(scene.loads.begin(), scene.loads.end(), is_temperature))
+    if (std::all_of(scene.loads.begin(), scene.loads.end(), is_temperature)
+        && !scene::loads_supports(scene))
       return EnergySide::above;
     return scene::moves_supports(scene)
                || std::any_of(scene.loads.begin(), scene.loads.end(), is_temperature)

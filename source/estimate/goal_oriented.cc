@@ -78,13 +78,22 @@ namespace tetradapt::estimate
       correction.error = more.error;
     }
 
+    /** a_K(x, y) on every cell, with the springs there. */
+    std::vector<double>
+    products(const EnrichedSpace &space, const Values &x, const Values &y)
+    {
+      std::vector<double> result = space.cell_products(x, y);
+      space.add_spring_products(x, y, result);
+      return result;
+    }
+
     /** See the class. */
     std::vector<double>
     indicators(const EnrichedSpace &space, const Values &e_u, const Values &e_z)
     {
-      std::vector<double> result = space.cell_products(e_u, e_z);
-      const auto          primal = space.cell_products(e_u, e_u);
-      const auto          dual   = space.cell_products(e_z, e_z);
+      std::vector<double> result = products(space, e_u, e_z);
+      const auto          primal = products(space, e_u, e_u);
+      const auto          dual   = products(space, e_z, e_z);
       for (std::size_t cell = 0; cell < result.size(); ++cell)
         {
           const double bound = std::sqrt(std::max(primal[cell] * dual[cell], 0.));
@@ -123,7 +132,8 @@ namespace tetradapt::estimate
                                .forces;
     const Values              goal(goal_forces.begin(), goal_forces.end());
     solve::StaticSystem::Stop stop;
-    stop.relative_error = dual_accuracy;
+    if (input.scene.solver.stopping == scene::SolverParameters::Stopping::discretisation)
+      stop.relative_error = dual_accuracy;
     const auto   z   = input.solution.system->solve_dual(nodal_part(goal, space.n_nodes()), stop);
     const Values z_h = space.embed(z->values);
     Values       dual_residual;
@@ -141,7 +151,7 @@ namespace tetradapt::estimate
     const auto   global = [&]() {
       return direct + product(residual, e_z.values, 0, all)
              + product(dual_residual, e_u.values, 0, all)
-             - sum(space.cell_products(e_u.values, e_z.values));
+             - sum(products(space, e_u.values, e_z.values));
     };
     Estimate result;
     result.global = global();

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/estimate/hierarchical_surplus.h"
 
+#include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/expression.h"
 #include "tetradapt/mechanics/point_conditions.h"
+#include "tetradapt/mechanics/sliding_normals.h"
 #include "tetradapt/mesh/face_table.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace tetradapt::estimate
 {
@@ -153,9 +156,70 @@ namespace tetradapt::estimate
         }
   }
 
+  namespace
+  {
+    /** Prescribes the surplus along the normals of sliding faces. */
+    void
+    hold_sliding(const std::vector<scene::SupportParameters> &supports,
+                 const HierarchicalSurplus                   &surplus,
+                 const scene::MeshParameters                 &surface,
+                 mechanics::PrescribedDisplacement           &result)
+    {
+      const mesh::TetMesh            &mesh = surplus.mesh();
+      const mechanics::SlidingNormals normals(supports, mesh, surface);
+      if (normals.empty())
+        return;
+      std::vector<SurplusOf> distances; // first component
+      for (scene::SupportParameters support : supports)
+        {
+          support.displacement = {{support.normal_displacement, "0", "0"}};
+          distances.emplace_back(support, surplus);
+        }
+      const auto hold = [&](const unsigned int               function,
+                            const Point<3>                  &place,
+                            const std::vector<unsigned int> &faces,
+                            const auto                      &coefficient) {
+        mechanics::HeldDirections held = result.directions_at(function);
+        for (const auto &direction : normals.at(place, faces))
+          for (const unsigned int s : direction.supports)
+            held.add(direction.normal, coefficient(distances[s])[0], s);
+        result.hold(function, held);
+      };
+      std::map<unsigned int, std::vector<unsigned int>> faces_at; // of edges
+      for (const unsigned int f : normals.faces())
+        {
+          const unsigned int cell  = surplus.faces().boundary_slots[f] / 4;
+          const unsigned int local = surplus.faces().boundary_slots[f] % 4;
+          for (const unsigned int e : edges_of_face(local))
+            faces_at[surplus.function(cell, e)].push_back(f);
+          if (surplus.degree() == 2)
+            {
+              const auto &v = mesh.faces[f].vertices;
+              Point<3>    centre;
+              for (const unsigned int vertex : v)
+                centre += (mesh.points[vertex] - Point<3>()) / 3.;
+              hold(surplus.function(cell, 6 + local), centre, {f}, [&](const SurplusOf &distance) {
+                return distance.of_face(v);
+              });
+            }
+        }
+      for (const auto &[edge, faces] : faces_at)
+        {
+          const unsigned int number = edge;
+          const auto        &ends   = surplus.edges().edges[edge];
+          const Point<3>     middle
+            = mesh.points[ends[0]] + 0.5 * (mesh.points[ends[1]] - mesh.points[ends[0]]);
+          hold(number, middle, faces, [&](const SurplusOf &distance) {
+            return distance.of_edge(number);
+          });
+        }
+    }
+  } // namespace
+
   mechanics::PrescribedDisplacement
   prescribe_surplus(const std::vector<scene::SupportParameters> &supports,
-                    const HierarchicalSurplus                   &surplus)
+                    const HierarchicalSurplus                   &surplus,
+                    const scene::MeshParameters                 &surface)
   {
     const mesh::TetMesh              &mesh = surplus.mesh();
     mechanics::PrescribedDisplacement result;
@@ -164,8 +228,14 @@ namespace tetradapt::estimate
     for (const auto &support : supports)
       {
         const std::string selection = "Supports/" + support.name;
-        const SurplusOf   coefficients(support, surplus);
-        unsigned char     components = 0;
+        if (support.type == scene::SupportType::rigid)
+          throw core::InputError(selection
+                                 + " couples its faces rigidly, for which there is no solution of "
+                                   "the next degree. Choose another estimator.");
+        if (support.type != scene::SupportType::fixed)
+          continue;
+        const SurplusOf coefficients(support, surplus);
+        unsigned char   components = 0;
         for (unsigned int c = 0; c < 3; ++c)
           components |= static_cast<unsigned char>(support.components[c]) << c;
         const auto set = [&](unsigned int function, const Tensor<1, 3> &value) {
@@ -195,6 +265,7 @@ namespace tetradapt::estimate
               set(surplus.function(cell, 6 + local), coefficients.of_face(mesh.faces[f].vertices));
           }
       }
+    hold_sliding(supports, surplus, surface, result);
     return result;
   }
 } // namespace tetradapt::estimate

@@ -41,6 +41,13 @@ namespace tetradapt::estimate
             for (unsigned int i = 0; i < space.surplus().n_per_cell(); ++i)
               add_surplus(u_h.degree(), i, space.n_nodes() + space.surplus().function(cell, i));
           }
+        if (const auto *springs = space.spring_matrix())
+          for (std::size_t k = 0; k < springs->rows().size(); ++k)
+            {
+              constexpr std::array<unsigned int, 6> entries{{0, 4, 8, 1, 2, 5}};
+              for (unsigned int i = 0; i < 6; ++i)
+                values[6 * std::size_t(springs->rows()[k]) + i] += springs->diagonal(k)[entries[i]];
+            }
       }
 
       /** Inverts the blocks in place. A function without any cell has none: zero. */

@@ -124,11 +124,11 @@ namespace tetradapt::estimate
                  const mesh::NodalField       &u_h,
                  const mechanics::MaterialMap &materials)
       {
-        const int                     region    = mesh.regions[cell];
+        const int                region    = mesh.regions[cell];
         const laws::PressureForm form      = materials.pressure_form(region);
-        const auto                   &rule      = compare::tet_quadrature(2);
-        const auto                    gradients = compare::vertex_gradients(u_h, cell);
-        double                        sum       = 0.;
+        const auto              &rule      = compare::tet_quadrature(2);
+        const auto               gradients = compare::vertex_gradients(u_h, cell);
+        double                   sum       = 0.;
         for (unsigned int q = 0; q < rule.points.size(); ++q)
           {
             const mesh::Barycentric &b       = rule.points[q];
@@ -193,10 +193,14 @@ namespace tetradapt::estimate
       add_boundary_face(const unsigned int cell, const unsigned int local, const unsigned int face)
       {
         const unsigned char known = loads.known_components(face);
-        if (known == 0)
+        if (known == 0 && !loads.slides(face))
           return;
-        const FacePlace place   = face_place(cell, local);
-        double          Q[3][3] = {};
+        const FacePlace           place = face_place(cell, local);
+        std::vector<Tensor<1, 3>> directions; // in which a sliding face's traction is known
+        if (loads.slides(face))
+          directions = loads.known_directions(face, place.normal);
+
+        double Q[3][3] = {};
         add_acoustic_tensor(1., stress.materials()[cell], place.normal, Q);
         const InverseNorm norm(Q);
         double            sum = 0.;
@@ -206,9 +210,17 @@ namespace tetradapt::estimate
           Tensor<1, 3> missing = -traction(s, place.normal);
           if (loads.has_traction(face))
             missing += loads.traction(face, x, place.normal);
-          for (unsigned int c = 0; c < 3; ++c)
-            if ((known >> c & 1) == 0)
-              missing[c] = 0.;
+          if (loads.slides(face))
+            {
+              Tensor<1, 3> known_part;
+              for (const Tensor<1, 3> &d : directions)
+                known_part += (d * missing) * d;
+              missing = known_part;
+            }
+          else
+            for (unsigned int c = 0; c < 3; ++c)
+              if ((known >> c & 1) == 0)
+                missing[c] = 0.;
           sum += weight * norm.square(missing);
         };
         if (loads.is_constant_on(face))
@@ -349,7 +361,7 @@ namespace tetradapt::estimate
     const mechanics::MaterialMap &materials    = input.comparison.material_map();
     const MPI_Comm                communicator = input.comparison.mpi_communicator();
     const CellStress              stress(u_h, materials);
-    const GivenLoads              loads(input.scene, materials, mesh);
+    const GivenLoads              loads(input.scene, materials, u_h);
     ResidualTerms                 terms(u_h, stress, loads);
     core::together(communicator, [&] {
       const compare::Slice slice   = compare::own_slice(mesh.n_cells(), communicator);

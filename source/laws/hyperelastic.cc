@@ -70,9 +70,8 @@ namespace tetradapt::laws
       for (unsigned int j = i; j < 3; ++j)
         for (unsigned int k = 0; k < 3; ++k)
           for (unsigned int l = k; l < 3; ++l)
-            result[i][j][k][l] = 0.5
-                                 * (inverse_C[i][k] * inverse_C[j][l]
-                                    + inverse_C[i][l] * inverse_C[j][k]);
+            result[i][j][k][l]
+              = 0.5 * (inverse_C[i][k] * inverse_C[j][l] + inverse_C[i][l] * inverse_C[j][k]);
     return result;
   }
 

@@ -78,8 +78,9 @@ namespace tetradapt::laws
   find_law(const std::string &name)
   {
     const auto &entries = law_catalogue();
-    const auto  found   = std::find_if(
-      entries.begin(), entries.end(), [&](const LawEntry &entry) { return entry.name == name; });
+    const auto  found   = std::find_if(entries.begin(), entries.end(), [&](const LawEntry &entry) {
+      return entry.name == name;
+    });
     if (found != entries.end())
       return *found;
     std::string valid;

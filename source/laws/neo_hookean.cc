@@ -60,8 +60,8 @@ namespace tetradapt::laws
     if (!(mu > 0.) || !(kappa > 0.))
       throw core::InputError("The split neo-Hookean law needs positive moduli, but the shear "
                              "modulus is "
-                             + std::to_string(mu) + " and the bulk modulus "
-                             + std::to_string(kappa) + ".");
+                             + std::to_string(mu) + " and the bulk modulus " + std::to_string(kappa)
+                             + ".");
   }
 
   ModuliAtRest
@@ -77,26 +77,24 @@ namespace tetradapt::laws
     const SymmetricTensor<2, 3>  I       = dealii::unit_symmetric_tensor<3>();
     const SymmetricTensor<2, 3> &inverse = strain.inverse_C;
     const double                 J = strain.J, x = strain.J_minus_1;
-    const double                 scaled = mu / std::cbrt(J * J); // mu J^(-2/3)
+    const double                 scaled = mu / std::cbrt(J * J);      // mu J^(-2/3)
     const double                 more   = trace(strain.twice_E) / 3.; // tr C / 3 - 1
     const double                 push   = kappa * J * x;
     MaterialResponse             result;
     // tr C / 3 - J^(2/3) in two parts of second order
-    result.energy
-      = 1.5 * scaled * (strain.shape / 3. + above_root(x)) + 0.5 * kappa * x * x;
+    result.energy = 1.5 * scaled * (strain.shape / 3. + above_root(x)) + 0.5 * kappa * x * x;
     // I - tr C / 3 C^-1 = C^-1 (C - tr C / 3 I)
     result.stress
       = scaled * symmetrize(Tensor<2, 3>(inverse) * Tensor<2, 3>(strain.twice_E - more * I))
         + push * inverse;
     if (with_tangent)
-      result.tangent
-        = 2. * scaled
-            * ((1. + more) * inverse_derivative(inverse)
-               + ((1. + more) * outer_product(inverse, inverse) - outer_product(I, inverse)
-                  - outer_product(inverse, I))
-                   / 3.)
-          + (push + kappa * J * J) * outer_product(inverse, inverse)
-          - 2. * push * inverse_derivative(inverse);
+      result.tangent = 2. * scaled
+                         * ((1. + more) * inverse_derivative(inverse)
+                            + ((1. + more) * outer_product(inverse, inverse)
+                               - outer_product(I, inverse) - outer_product(inverse, I))
+                                / 3.)
+                       + (push + kappa * J * J) * outer_product(inverse, inverse)
+                       - 2. * push * inverse_derivative(inverse);
     return result;
   }
 } // namespace tetradapt::laws

@@ -49,8 +49,21 @@ namespace tetradapt::mechanics
     struct Hold
     {
       Components                                      components = 0;
+      std::vector<std::string>                        sliding; ///< supports along the normal
       std::vector<std::pair<std::string, Components>> supports;
     };
+
+    /** Whether @p support, which does not slide, prescribes a component wherever it is. Loads on
+     * faces that are coupled to a reference point move that, unless it is prescribed. */
+    bool
+    prescribes(const scene::SupportParameters &support, const unsigned int c)
+    {
+      if (support.type == scene::SupportType::fixed)
+        return support.components[c];
+      const auto  is_set = [](const auto &component) { return component.has_value(); };
+      const auto &t = support.rigid.translation, &R = support.rigid.rotation;
+      return std::all_of(t.begin(), t.end(), is_set) && std::all_of(R.begin(), R.end(), is_set);
+    }
 
     std::vector<Hold>
     holds_of(const scene::Scene &scene, const mesh::TetMesh &mesh)
@@ -60,13 +73,18 @@ namespace tetradapt::mechanics
         {
           Components components = 0;
           for (unsigned int c = 0; c < 3; ++c)
-            components |= (support.components[c] ? 1u : 0u) << c;
+            components |= (prescribes(support, c) ? 1u : 0u) << c;
           const std::string name = "Supports/" + support.name;
           for (unsigned int p = 0; p < mesh.patches.size(); ++p)
             {
               const auto &selections = mesh.patches[p].selections;
               if (std::count(selections.begin(), selections.end(), name) == 0)
                 continue;
+              if (support.type == scene::SupportType::sliding)
+                {
+                  holds[p].sliding.push_back(name);
+                  continue;
+                }
               holds[p].components |= components;
               holds[p].supports.emplace_back(name, components);
             }
@@ -107,9 +125,23 @@ namespace tetradapt::mechanics
           const Components own  = is_pressure ? components_of(normal) : fixed;
           const Hold      &hold = holds[face.patch];
           result.area += area;
-          if ((own & hold.components) == 0)
+          const Components across = hold.sliding.empty() ? 0 : components_of(normal);
+          if (across != 0 && (across & (across - 1)) != 0)
+            {
+              // Across an inclined face.
+              if ((own & across) == 0)
+                continue;
+              const bool is_held = is_pressure || (own & ~hold.components) == 0;
+              (is_held ? result.held_area : result.partly_area) += area;
+              result.supports.insert(hold.sliding.begin(), hold.sliding.end());
+              continue;
+            }
+          if ((own & (hold.components | across)) == 0)
             continue;
-          ((own & ~hold.components) == 0 ? result.held_area : result.partly_area) += area;
+          if ((own & across) != 0)
+            result.supports.insert(hold.sliding.begin(), hold.sliding.end());
+          ((own & ~(hold.components | across)) == 0 ? result.held_area : result.partly_area)
+            += area;
           for (const auto &[name, components] : hold.supports)
             if ((own & components) != 0)
               result.supports.insert(name);

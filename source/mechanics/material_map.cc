@@ -112,8 +112,15 @@ namespace tetradapt::mechanics
     std::shared_ptr<ConstitutiveLaw>
     law_of(const scene::MaterialParameters &parameters, const scene::Formulation formulation)
     {
-      std::shared_ptr<ConstitutiveLaw> law
-        = laws::make_law(parameters.law, parameters.constants);
+      std::shared_ptr<ConstitutiveLaw> law;
+      try
+        {
+          law = laws::make_law(parameters.law, parameters.constants);
+        }
+      catch (const core::InputError &error)
+        {
+          throw core::InputError("Materials/" + parameters.name + "/Law: " + error.what());
+        }
       if (!law->supports(formulation)
           || (formulation != scene::Formulation::finite_strain
               && dynamic_cast<const LinearLaw *>(law.get()) == nullptr))

@@ -53,13 +53,50 @@ namespace tetradapt::mechanics
     }
   } // namespace
 
+  namespace
+  {
+    template <typename Number>
+    Tensor<1, 3>
+    at_node(const Number *x, const unsigned int node)
+    {
+      const std::size_t first = 3 * std::size_t(node);
+      Tensor<1, 3>      value;
+      for (unsigned int c = 0; c < 3; ++c)
+        value[c] = x[first + c];
+      return value;
+    }
+
+    template <typename Number>
+    void
+    set_node(Number *x, const unsigned int node, const Tensor<1, 3> &value)
+    {
+      const std::size_t first = 3 * std::size_t(node);
+      for (unsigned int c = 0; c < 3; ++c)
+        x[first + c] = static_cast<Number>(value[c]);
+    }
+
+    template <typename Number>
+    Tensor<1, 3>
+    multiply(const std::array<Number, 9> &block, const Tensor<1, 3> &x)
+    {
+      Tensor<1, 3> result;
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = 0; j < 3; ++j)
+          result[i] += block[3 * i + j] * x[j];
+      return result;
+    }
+  } // namespace
+
   template <typename Number>
-  MatrixFreeStiffness<Number>::MatrixFreeStiffness(const fem::Space         &space,
-                                                   const TangentField       &tangents,
-                                                   const fem::FixedUnknowns &fixed,
-                                                   const double              scale)
+  MatrixFreeStiffness<Number>::MatrixFreeStiffness(const fem::Space           &space,
+                                                   const TangentField         &tangents,
+                                                   const fem::FixedUnknowns   &fixed,
+                                                   const double                scale,
+                                                   const SpringMatrix<double> *springs_to_add)
     : space(space), fixed(fixed), form(form_of(tangents))
   {
+    if (springs_to_add != nullptr)
+      springs.emplace(*springs_to_add, scale);
     store_cells(tangents, scale);
     compute_diagonal();
   }
@@ -112,15 +149,15 @@ namespace tetradapt::mechanics
   {
     std::vector<Block> blocks(space.n_local_nodes(), Block{});
     if (n_batches > 0)
-      add_diagonal_blocks<Number>({nodes.data(),
-                                   at_end.data(),
-                                   gradients.data(),
-                                   tangent_values.data(),
-                                   form},
-                                  0,
-                                  n_batches,
-                                  blocks.data()->data());
+      add_diagonal_blocks<Number>(
+        {nodes.data(), at_end.data(), gradients.data(), tangent_values.data(), form},
+        0,
+        n_batches,
+        blocks.data()->data());
     blocks.resize(space.n_owned_nodes());
+    for (std::size_t k = 0; springs && k < springs->rows().size(); ++k)
+      for (unsigned int i = 0; i < 9; ++i)
+        blocks[springs->rows()[k]][i] += springs->diagonal(k)[i];
     for (const unsigned int unknown : fixed.unknowns())
       if (unknown < 3 * blocks.size())
         {
@@ -130,6 +167,9 @@ namespace tetradapt::mechanics
             if (j != c)
               block[3 * c + j] = block[3 * j + c] = 0;
         }
+    for (const fem::InclinedNode &inclined : fixed.inclined())
+      if (inclined.node < blocks.size())
+        fem::build_in(inclined.held, blocks[inclined.node]);
     diagonal = std::move(blocks);
   }
 
@@ -140,15 +180,12 @@ namespace tetradapt::mechanics
                                           const Number *x,
                                           Number       *y) const
   {
-    apply_stiffness<Number>({nodes.data(),
-                             at_end.data(),
-                             gradients.data(),
-                             tangent_values.data(),
-                             form},
-                            begin,
-                            end,
-                            x,
-                            y);
+    apply_stiffness<Number>(
+      {nodes.data(), at_end.data(), gradients.data(), tangent_values.data(), form},
+      begin,
+      end,
+      x,
+      y);
   }
 
   template <typename Number>
@@ -161,15 +198,31 @@ namespace tetradapt::mechanics
                                                  fixed.unknowns().end(),
                                                  3 * space.n_owned_nodes())
                                 - fixed.unknowns().begin(); // owned ones
+    // Directions that are no components are never zero to the last digit.
+    const auto       &inclined = fixed.inclined();
+    const std::size_t n_inclined
+      = std::lower_bound(inclined.begin(),
+                         inclined.end(),
+                         space.n_owned_nodes(),
+                         [](const fem::InclinedNode &a, unsigned int b) { return a.node < b; })
+        - inclined.begin();
     const VectorOf<Number> *free = &source;
-    if (std::any_of(fixed.unknowns().begin(),
-                    fixed.unknowns().begin() + n_fixed,
-                    [&](const unsigned int unknown) { return source.local_element(unknown) != 0; }))
+    if (n_inclined > 0
+        || std::any_of(fixed.unknowns().begin(),
+                       fixed.unknowns().begin() + n_fixed,
+                       [&](const unsigned int unknown) {
+                         return source.local_element(unknown) != 0;
+                       }))
       {
         masked.reinit(source, true);
         std::copy_n(source.begin(), source.locally_owned_size(), masked.begin());
         for (std::size_t k = 0; k < n_fixed; ++k)
           masked.local_element(fixed.unknowns()[k]) = 0;
+        for (std::size_t k = 0; k < n_inclined; ++k)
+          {
+            const Tensor<1, 3> x = at_node(source.begin(), inclined[k].node);
+            set_node(masked.begin(), inclined[k].node, x - inclined[k].held * x);
+          }
         free = &masked;
       }
     free->update_ghost_values_start();
@@ -178,11 +231,23 @@ namespace tetradapt::mechanics
     add_forces(0, n_own_batches, free->begin(), y);
     free->update_ghost_values_finish();
     add_forces(n_own_batches, n_batches, free->begin(), y);
+    if (springs)
+      springs->add_product(free->begin(), y);
     free->zero_out_ghost_values();
     for (std::size_t k = 0; k < n_fixed; ++k)
       {
         const unsigned int unknown = fixed.unknowns()[k];
         y[unknown] = diagonal[unknown / 3][4 * (unknown % 3)] * source.local_element(unknown);
+      }
+    for (std::size_t k = 0; k < n_inclined; ++k)
+      {
+        const unsigned int node  = inclined[k].node;
+        const auto        &held  = inclined[k].held;
+        const Tensor<1, 3> force = at_node(y, node);
+        set_node(y,
+                 node,
+                 force - held * force
+                   + multiply(diagonal[node], held * at_node(source.begin(), node)));
       }
     destination.zero_out_ghost_values();
   }
@@ -198,7 +263,11 @@ namespace tetradapt::mechanics
         std::vector<Number> x(3 * std::size_t(space.n_local_nodes()), Number(0));
         for (std::size_t k = 0; k < fixed.unknowns().size(); ++k)
           x[fixed.unknowns()[k]] = fixed.values()[k];
+        for (const fem::InclinedNode &inclined : fixed.inclined())
+          set_node(x.data(), inclined.node, inclined.value);
         add_forces(0, n_batches, x.data(), b.begin());
+        if (springs)
+          springs->add_product(x.data(), b.begin());
         b.zero_out_ghost_values();
       }
     for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
@@ -207,6 +276,15 @@ namespace tetradapt::mechanics
           Number &value = b.local_element(3 * node + c);
           value = fixed.is_fixed(node, c) ? Number(diagonal[node][4 * c] * fixed.value(node, c))
                                           : Number(forces[space.field_node(node)][c]) - value;
+        }
+    for (const fem::InclinedNode &inclined : fixed.inclined())
+      if (inclined.node < space.n_owned_nodes())
+        {
+          const Tensor<1, 3> force = at_node(b.begin(), inclined.node);
+          set_node(b.begin(),
+                   inclined.node,
+                   force - inclined.held * force
+                     + multiply(diagonal[inclined.node], inclined.value));
         }
     return b;
   }

@@ -107,23 +107,23 @@ namespace tetradapt::mechanics
     namespace MPI = dealii::Utilities::MPI;
     u.update_ghost_values();
     forces.reinit(space.vector_layout());
-    Cell               cell(space, u);
-    Deformed           result;
-    laws::Response response;
-    const auto        &mesh  = space.tet_mesh();
-    bool               right = true;
-    std::vector<double> rounding(space.n_owned_nodes(), 0.);
+    Cell                  cell(space, u);
+    Deformed              result;
+    laws::Response        response;
+    const auto           &mesh  = space.tet_mesh();
+    bool                  right = true;
+    std::vector<double>   rounding(space.n_owned_nodes(), 0.);
     std::map<int, double> moduli;
     result.least_jacobian = std::numeric_limits<double>::max();
     for (unsigned int k = 0; k < space.touching_cells().size(); ++k)
       {
         cell.enter(k);
-        const auto  &law    = materials.law(mesh.regions[cell.cell]);
-        const double weight = mesh::cell_volume(mesh, cell.cell) / points.size();
+        const auto  &law     = materials.law(mesh.regions[cell.cell]);
+        const double weight  = mesh::cell_volume(mesh, cell.cell) / points.size();
         double      &modulus = moduli[mesh.regions[cell.cell]];
         if (modulus == 0.)
           modulus = law.tangent_at_rest()[0][0][0][0];
-        double       least
+        double least
           = space.degree() == 1 ? std::numeric_limits<double>::max() : cell.least_at_vertices();
         for (unsigned int q = 0; q < points.size(); ++q)
           {
@@ -171,7 +171,7 @@ namespace tetradapt::mechanics
     result.force_rounding
       = std::numeric_limits<double>::epsilon() * std::sqrt(MPI::sum(square, communicator));
     // The place from the rank that has the smallest; the first of several.
-    const auto least = MPI::min_max_avg(result.least_jacobian, communicator);
+    const auto least      = MPI::min_max_avg(result.least_jacobian, communicator);
     result.least_jacobian = least.min;
     double place[3]       = {result.worst_place[0], result.worst_place[1], result.worst_place[2]};
     MPI_Bcast(place, 3, MPI_DOUBLE, static_cast<int>(least.min_index), communicator);
@@ -183,13 +183,13 @@ namespace tetradapt::mechanics
   NonlinearStiffness::linearise(const Vector &u) const
   {
     u.update_ghost_values();
-    const auto                    &mesh = space.tet_mesh();
-    const std::size_t              n    = space.touching_cells().size();
+    const auto                &mesh = space.tet_mesh();
+    const std::size_t          n    = space.touching_cells().size();
     std::vector<laws::Tangent> tangents(n * points.size());
-    std::vector<unsigned int>      first(mesh.n_cells(), dealii::numbers::invalid_unsigned_int);
-    Cell                           cell(space, u);
-    laws::Response                 response;
-    const std::string             *without = nullptr; ///< a material that has none
+    std::vector<unsigned int>  first(mesh.n_cells(), dealii::numbers::invalid_unsigned_int);
+    Cell                       cell(space, u);
+    laws::Response             response;
+    const std::string         *without = nullptr; ///< a material that has none
     for (unsigned int k = 0; k < n; ++k)
       {
         cell.enter(k);

@@ -61,7 +61,7 @@ namespace tetradapt::mechanics
           return load.type == scene::LoadType::point_force;
         }))
       return warnings;
-    const PrescribedDisplacement prescribed = prescribe(scene.supports, mesh, nullptr);
+    const PrescribedDisplacement prescribed = prescribe(scene.supports, mesh, nullptr, scene.mesh);
     for (const auto &load : scene.loads)
       {
         if (load.type != scene::LoadType::point_force)
@@ -76,6 +76,13 @@ namespace tetradapt::mechanics
               ++n;
               n_held += prescribed.is_fixed(vertex, c) ? 1 : 0;
             }
+        if (prescribed.fixed[vertex] == PrescribedDisplacement::is_inclined)
+          {
+            const auto   free   = prescribed.free_part(vertex, force);
+            const double little = 1e-9 * force.norm();
+            n                   = 2; // a single component may be held in part
+            n_held              = free.norm() < little ? 2 : (force - free).norm() > little ? 1 : 0;
+          }
         if (n_held > 0)
           warnings.push_back(name + ": " + (n_held == n ? "all" : "some")
                              + " components of this force act on the " + "vertex "

@@ -90,8 +90,8 @@ namespace tetradapt::mechanics
           {
             Tensor<2, 3> G;
             for (unsigned int i = 0; i < space.n_nodes_per_cell(); ++i)
-              if (prescribed.is_fixed(space.cell_node(cell, i), c))
-                G[c] += gradients[i];
+              if (prescribed.fixed[space.cell_node(cell, i)] != 0)
+                G += outer_product(held_part(space.cell_node(cell, i), c), gradients[i]);
             const SymmetricTensor<2, 3> strain = symmetrize(G);
             const int                   region = space.tet_mesh().regions[cell];
             layer_energy[c]
@@ -99,6 +99,21 @@ namespace tetradapt::mechanics
                  * (displacement.pressure ? materials.pressure_form(region).stress(G, 0.) * strain
                                           : materials.linear_law(region).energy_density(strain));
           }
+      }
+
+      /** What supports hold at a node of a translation by one along @p c. */
+      Tensor<1, 3>
+      held_part(const unsigned int node, const unsigned int c) const
+      {
+        Tensor<1, 3> axis;
+        axis[c] = 1.;
+        if (prescribed.fixed[node] != PrescribedDisplacement::is_coupled)
+          return axis - prescribed.free_part(node, axis);
+        const auto coupling = std::find_if(
+          prescribed.rigid.begin(), prescribed.rigid.end(), [&](const RigidCoupling &candidate) {
+            return std::binary_search(candidate.nodes.begin(), candidate.nodes.end(), node);
+          });
+        return coupling->prescribed[c] ? axis : Tensor<1, 3>();
       }
 
       SymmetricTensor<2, 3>
@@ -119,6 +134,46 @@ namespace tetradapt::mechanics
         return space.local_node(node) < space.n_owned_nodes();
       }
     };
+
+    /** What the supports among @p begin to @p end take of the reaction at a node that slides: each
+     * along its own directions, the sum of the squares by their areas as small as possible. */
+    std::vector<Tensor<1, 3>>
+    shares(const std::vector<HeldNode>::const_iterator &begin,
+           const std::vector<HeldNode>::const_iterator &end,
+           const Tensor<1, 3>                          &reaction)
+    {
+      std::vector<SymmetricTensor<2, 3>> parts;
+      SymmetricTensor<2, 3>              sum;
+      for (auto held = begin; held != end; ++held)
+        {
+          SymmetricTensor<2, 3> part = held->normals;
+          for (unsigned int c = 0; c < 3; ++c)
+            if (held->components[c])
+              part[c][c] += 1.;
+          parts.push_back((held->area > 0. ? held->area : 1.) * part);
+          sum += parts.back();
+        }
+      // x solves sum x = reaction in the directions that are held at all.
+      Tensor<1, 3> x;
+      double       largest = 0.;
+      const auto   pairs
+        = dealii::eigenvectors(sum, dealii::SymmetricTensorEigenvectorMethod::jacobi);
+      for (const auto &[value, vector] : pairs)
+        largest = std::max(largest, value);
+      for (const auto &[value, vector] : pairs)
+        if (value > 1e-12 * largest)
+          x += (vector * reaction) / value * vector;
+      std::vector<Tensor<1, 3>> result;
+      for (const auto &part : parts)
+        result.push_back(part * x);
+      return result;
+    }
+
+    bool
+    slides(const HeldNode &held)
+    {
+      return trace(held.normals) > 0.;
+    }
 
     /** The weight with which a support counts at a node among @p begin to @p end that prescribe
      * component @p c there; all sum to one. */
@@ -178,13 +233,20 @@ namespace tetradapt::mechanics
         Tensor<1, 3> reaction
           = (cells ? cells->forces[space.local_node(node)] : (*internal_forces)[node])
             - forces[node];
-        for (unsigned int c = 0; c < 3; ++c)
-          if (!prescribed.is_fixed(node, c))
-            reaction[c] = 0.;
+        if (prescribed.fixed[node] != PrescribedDisplacement::is_coupled)
+          reaction -= prescribed.free_part(node, reaction);
         result.magnitude += reaction.norm();
         Point<3> x = displacement.node_position(node);
         if (internal_forces != nullptr)
           x += displacement.values[node];
+        if (std::any_of(begin, end, slides))
+          {
+            const auto parts = shares(begin, end, reaction);
+            for (auto h = begin; h != end; ++h)
+              result.supports[h->support].add(x, parts[h - begin]);
+            begin = end;
+            continue;
+          }
         for (auto h = begin; h != end; ++h)
           {
             Tensor<1, 3> part;

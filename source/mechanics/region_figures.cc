@@ -105,8 +105,8 @@ namespace tetradapt::mechanics
             Tensor<2, 3> G;
             for (unsigned int i = 0; i < 4; ++i)
               G += outer_product(u.values[u.mesh().cells[cell][i]], directions[i]);
-            return {
-              von_mises(stress(thermal ? G - Tensor<2, 3>(mean_thermal_strain(cell)) : G)), 4};
+            return {von_mises(stress(thermal ? G - Tensor<2, 3>(mean_thermal_strain(cell)) : G)),
+                    4};
           }
         auto                  gradients = corner_gradients(u, cell, directions);
         std::array<double, 4> values; // squares first: one root a cell is enough
@@ -204,7 +204,7 @@ namespace tetradapt::mechanics
       int                         region = 0;
       const ConstitutiveLaw      *law    = nullptr;
       const LinearLaw            *linear = nullptr; ///< the same; null for another law
-      std::optional<PressureForm> form; ///< of the law, if it has one
+      std::optional<PressureForm> form;             ///< of the law, if it has one
     };
 
     /** Numbers the regions of a mesh from 0. */

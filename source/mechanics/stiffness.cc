@@ -74,7 +74,7 @@ namespace tetradapt::mechanics
       /** K_ab(i, k) = g_a(J) A_iJkL g_b(L) */
       void
       add_full_point(const std::array<Tensor<1, 3>, n> &g,
-                     const laws::Tangent           &A,
+                     const laws::Tangent               &A,
                      const double                       weight)
       {
         double       full[9][9];
@@ -101,6 +101,73 @@ namespace tetradapt::mechanics
       std::array<BlockMatrix::Block, n * n> blocks;
     };
 
+    Tensor<2, 3>
+    tensor_of(const BlockMatrix::Block &block)
+    {
+      Tensor<2, 3> result;
+      for (unsigned int i = 0; i < 9; ++i)
+        result[i / 3][i % 3] = block[i];
+      return result;
+    }
+
+    /** The projector on what is free at a node. */
+    Tensor<2, 3>
+    free_directions(const fem::FixedUnknowns &fixed, const unsigned int node)
+    {
+      Tensor<2, 3> result;
+      for (unsigned int c = 0; c < 3; ++c)
+        {
+          Tensor<1, 3> axis;
+          axis[c]   = 1.;
+          result[c] = fixed.free_part(node, axis);
+        }
+      return result;
+    }
+
+    /** What is prescribed at a node, zero elsewhere. */
+    Tensor<1, 3>
+    prescribed_value(const fem::FixedUnknowns &fixed, const unsigned int node)
+    {
+      if (fixed.components(node) == fem::FixedUnknowns::is_inclined)
+        return fixed.inclined_at(node).value;
+      Tensor<1, 3> result;
+      for (unsigned int c = 0; c < 3; ++c)
+        if (fixed.is_fixed(node, c))
+          result[c] = fixed.value(node, c);
+      return result;
+    }
+
+    /** The same as add_constrained_block() where a node of the two is inclined. A node's own
+     * block is added whole: build_in_inclined() does the rest. */
+    void
+    add_inclined_block(const BlockMatrix::Block &K,
+                       bool                      transposed,
+                       unsigned int              row,
+                       unsigned int              column,
+                       unsigned int              entry,
+                       const fem::FixedUnknowns &fixed,
+                       LinearSystem             &system)
+    {
+      Tensor<2, 3> block = tensor_of(K);
+      if (transposed)
+        block = transpose(block);
+      const Tensor<1, 3> force = block * prescribed_value(fixed, column);
+      for (unsigned int i = 0; i < 3; ++i)
+        system.prescribed_forces.local_element(3 * row + i) += force[i];
+      if (row != column)
+        block = free_directions(fixed, row) * block * free_directions(fixed, column);
+      for (unsigned int i = 0; i < 9; ++i)
+        system.matrix.block(entry)[i] += block[i / 3][i % 3];
+    }
+
+    void
+    build_in_inclined(const fem::FixedUnknowns &fixed, LinearSystem &system)
+    {
+      for (const fem::InclinedNode &inclined : fixed.inclined())
+        if (inclined.node < system.matrix.n_rows())
+          fem::build_in(inclined.held, system.matrix.block(system.matrix.row_begin(inclined.node)));
+    }
+
     /** Adds one block to entry @p entry of a row, leaving out constrained rows and columns
      * and moving prescribed values to the right-hand side. */
     void
@@ -115,6 +182,9 @@ namespace tetradapt::mechanics
       BlockMatrix::Block &target       = system.matrix.block(entry);
       const unsigned char row_fixed    = fixed.components(row);
       const unsigned char column_fixed = fixed.components(column);
+      if (row_fixed == fem::FixedUnknowns::is_inclined
+          || column_fixed == fem::FixedUnknowns::is_inclined)
+        return add_inclined_block(K, transposed, row, column, entry, fixed, system);
       for (unsigned int i = 0; i < 3; ++i)
         for (unsigned int j = 0; j < 3; ++j)
           {
@@ -183,10 +253,30 @@ namespace tetradapt::mechanics
           add_cell(space, k, stiffness, fixed, entries, system);
         }
     }
+    void
+    add_springs(const SpringMatrix<double> &springs,
+                const fem::FixedUnknowns   &fixed,
+                LinearSystem               &system)
+    {
+      const BlockMatrix &matrix = system.matrix;
+      for (std::size_t k = 0; k < springs.rows().size(); ++k)
+        for (std::size_t spring = springs.row_begin(k); spring < springs.row_begin(k + 1); ++spring)
+          {
+            // Both nodes are of one cell, so that the entry is there.
+            const unsigned int row = springs.rows()[k], column = springs.column(spring);
+            std::size_t        entry = matrix.row_begin(row);
+            while (matrix.column(entry) != column)
+              ++entry;
+            add_constrained_block(springs.block(spring), false, row, column, entry, fixed, system);
+          }
+    }
   } // namespace
 
   LinearSystem
-  assemble(const fem::Space &space, const TangentField &tangents, const fem::FixedUnknowns &fixed)
+  assemble(const fem::Space           &space,
+           const TangentField         &tangents,
+           const fem::FixedUnknowns   &fixed,
+           const SpringMatrix<double> *springs)
   {
     std::vector<unsigned int> cell_entries;
     LinearSystem              system(space, &cell_entries);
@@ -194,6 +284,9 @@ namespace tetradapt::mechanics
       assemble_cells<4>(space, tangents, fixed, cell_entries, system);
     else
       assemble_cells<10>(space, tangents, fixed, cell_entries, system);
+    if (springs != nullptr)
+      add_springs(*springs, fixed, system);
+    build_in_inclined(fixed, system);
     return system;
   }
 
@@ -214,6 +307,17 @@ namespace tetradapt::mechanics
                 ? diagonal[4 * c] * fixed.value(row, c)
                 : forces[node][c] - system.prescribed_forces.local_element(3 * row + c);
       }
+    for (const fem::InclinedNode &inclined : fixed.inclined())
+      if (inclined.node < space.n_owned_nodes())
+        {
+          Tensor<1, 3> force;
+          for (unsigned int c = 0; c < 3; ++c)
+            force[c] = b.local_element(3 * inclined.node + c);
+          const auto &own = system.matrix.block(system.matrix.row_begin(inclined.node));
+          force += tensor_of(own) * inclined.value - inclined.held * force;
+          for (unsigned int c = 0; c < 3; ++c)
+            b.local_element(3 * inclined.node + c) = force[c];
+        }
     return b;
   }
 } // namespace tetradapt::mechanics

@@ -29,16 +29,16 @@ namespace tetradapt::mechanics
   {
     switch (form)
       {
-        case TangentForm::isotropic:
-          return 2;
-        case TangentForm::one_per_cell:
-          return 21;
-        case TangentForm::four_per_cell:
-          return 84;
-        case TangentForm::full_per_cell:
-          return 45;
-        default:
-          return 180;
+      case TangentForm::isotropic:
+        return 2;
+      case TangentForm::one_per_cell:
+        return 21;
+      case TangentForm::four_per_cell:
+        return 84;
+      case TangentForm::full_per_cell:
+        return 45;
+      default:
+        return 180;
       }
   }
 

@@ -29,9 +29,11 @@ namespace tetradapt::mechanics
 
   struct SurfaceLoads::Load
   {
-    explicit Load(const scene::LoadParameters &load)
-      : parameters(load), name("Loads/" + load.name), texts(texts_of(load)),
-        value(texts, name + "/Value"), is_pressure(load.type == scene::LoadType::pressure),
+    Load(const scene::LoadParameters &load,
+         const std::string           &section,
+         const std::string           &parameter)
+      : parameters(load), name(section + "/" + load.name), texts(texts_of(load)),
+        value(texts, name + "/" + parameter), is_pressure(load.type == scene::LoadType::pressure),
         is_total(load.type == scene::LoadType::total_force), is_constant(value.is_constant()),
         uses_normal(value.uses_normal()),
         is_polynomial(std::all_of(texts.begin(), texts.end(), core::is_polynomial)),
@@ -64,15 +66,24 @@ namespace tetradapt::mechanics
   };
 
   SurfaceLoads::SurfaceLoads(const scene::Scene &scene, const mesh::TetMesh &mesh)
-    : mesh(mesh), mesh_parameters(scene.mesh), on_patch(mesh.patches.size())
+    : SurfaceLoads(scene.loads, "Loads", "Value", scene.mesh, mesh)
   {
-    for (unsigned int i = 0; i < scene.loads.size(); ++i)
+  }
+
+  SurfaceLoads::SurfaceLoads(const std::vector<scene::LoadParameters> &densities,
+                             const std::string                        &section,
+                             const std::string                        &parameter,
+                             const scene::MeshParameters              &mesh_parameters,
+                             const mesh::TetMesh                      &mesh)
+    : mesh(mesh), mesh_parameters(mesh_parameters), on_patch(mesh.patches.size())
+  {
+    for (unsigned int i = 0; i < densities.size(); ++i)
       {
-        const auto &load = scene.loads[i];
+        const auto &load = densities[i];
         if (!scene::acts_on_surface(load.type))
           continue;
-        loads.emplace(i, std::make_unique<Load>(load));
-        const std::string selection = "Loads/" + load.name;
+        loads.emplace(i, std::make_unique<Load>(load, section, parameter));
+        const std::string selection = section + "/" + load.name;
         for (unsigned int p = 0; p < mesh.patches.size(); ++p)
           {
             const auto &names = mesh.patches[p].selections;

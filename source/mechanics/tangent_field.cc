@@ -66,8 +66,8 @@ namespace tetradapt::mechanics
   }
 
   TangentField::TangentField(std::vector<laws::Tangent> tangents,
-                             std::vector<unsigned int>      first,
-                             const unsigned int             n_points)
+                             std::vector<unsigned int>  first,
+                             const unsigned int         n_points)
     : full_tangents(std::move(tangents)), which(std::move(first)), n_points(n_points),
       isotropic(false)
   {

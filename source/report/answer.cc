@@ -98,6 +98,33 @@ namespace tetradapt::report
       return text + rest_of(list.size(), label + "s", "reactions.csv");
     }
 
+    /** How reference points move, and what holds them. */
+    std::string
+    motions(const solve::Equilibrium &forces, const ForceNoise &noise)
+    {
+      std::string text;
+      for (std::size_t i = 0; i < std::min(forces.reference_points.size(), longest_list); ++i)
+        {
+          const solve::ReferencePoint &point = forces.reference_points[i];
+          dealii::Tensor<1, 3>         t, R;
+          for (unsigned int c = 0; c < 3; ++c)
+            {
+              t[c] = point.motion[c];
+              R[c] = point.motion[3 + c];
+            }
+          const double turned = R.norm() * forces.lever;
+          const double least  = 1e-9 * std::max(t.norm(), turned);
+          text += entry("motion " + point.name,
+                        "translation " + short_vector(t, least) + " of "
+                          + short_vector(point.point, 1e-9 * forces.lever))
+                  + entry("", "rotation " + short_vector(R, least / forces.lever) + " radians")
+                  + entry("",
+                          "reaction's moment about it "
+                            + short_vector(point.reaction.moment, noise.moment));
+        }
+      return text + rest_of(forces.reference_points.size(), "reference points", "results.txt");
+    }
+
     std::string
     balance(const adapt::CycleRecord &record)
     {
@@ -107,6 +134,7 @@ namespace tetradapt::report
       const ForceNoise          noise  = force_noise(forces);
       std::string               text
         = acting("reaction", forces.supports, noise) + acting("load", forces.loads, noise);
+      text += motions(forces, noise);
       for (const adapt::LoadRecord &load : record.loads)
         {
           const std::string what = adapt::accuracy_of(load);
@@ -284,7 +312,8 @@ namespace tetradapt::report
       const bool is_known = record.relative_energy_error || record.relative_estimate;
       if (scene.formulation == scene::Formulation::finite_strain)
         return scene.adaptivity.strategy == scene::AdaptivityParameters::Strategy::none
-                 ? "learn how wrong this is: set Adaptivity/Strategy = uniform with Maximum cycles = 3, "
+                 ? "learn how wrong this is: set Adaptivity/Strategy = uniform with Maximum cycles "
+                   "= 3, "
                    "and see how much the values still change."
                  : "look at how much the values still change from cycle to cycle: errors are not "
                    "estimated with Formulation = finite strain.";

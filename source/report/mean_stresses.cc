@@ -40,9 +40,9 @@ namespace tetradapt::report
 
     /** Cauchy's stress in the mean of the quadrature points of the stiffness. */
     SymmetricTensor<2, 3>
-    mean_cauchy_stress(const mesh::NodalField                &u,
-                       const unsigned int                     cell,
-                       const laws::ConstitutiveLaw       &law)
+    mean_cauchy_stress(const mesh::NodalField      &u,
+                       const unsigned int           cell,
+                       const laws::ConstitutiveLaw &law)
     {
       if (u.degree() == 1)
         return mechanics::cauchy_stress(law, u.gradient(cell, centroid));
@@ -53,10 +53,10 @@ namespace tetradapt::report
     }
 
     SymmetricTensor<2, 3>
-    mean_stress(const mesh::NodalField           &u,
-                const unsigned int                cell,
-                const mechanics::MaterialMap     &materials,
-                const laws::LinearLaw &law)
+    mean_stress(const mesh::NodalField       &u,
+                const unsigned int            cell,
+                const mechanics::MaterialMap &materials,
+                const laws::LinearLaw        &law)
     {
       const bool thermal = materials.has_thermal_strain();
       if (u.pressure)
@@ -76,10 +76,9 @@ namespace tetradapt::report
 
       SymmetricTensor<2, 3> thermal_strain;
       for (unsigned int q = 0; q < 4; ++q)
-        thermal_strain
-          += 0.25
-             * materials.thermal_strain(u.mesh().regions[cell],
-                                        position(u.mesh(), cell, gauss_point(q)));
+        thermal_strain += 0.25
+                          * materials.thermal_strain(u.mesh().regions[cell],
+                                                     position(u.mesh(), cell, gauss_point(q)));
       return stress - law.tangent_at_rest() * thermal_strain;
     }
   } // namespace
@@ -93,9 +92,9 @@ namespace tetradapt::report
     result.stress.resize(6 * std::size_t(mesh.n_cells()));
     result.von_mises.resize(mesh.n_cells());
     result.pressure.resize(mesh.n_cells());
-    const bool                       is_linear = materials.is_linear();
+    const bool                   is_linear = materials.is_linear();
     const laws::ConstitutiveLaw *law       = nullptr;
-    int                              region    = 0;
+    int                          region    = 0;
     for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
       {
         if (law == nullptr || mesh.regions[cell] != region)

@@ -31,6 +31,12 @@ namespace tetradapt::report
     std::string
     kind_of(const scene::SupportParameters &support)
     {
+      if (support.type == scene::SupportType::sliding)
+        return "slides";
+      if (support.type == scene::SupportType::rigid)
+        return "moves rigidly";
+      if (support.type == scene::SupportType::spring)
+        return scene::word(support.type) + ", " + scene::word(support.spring.direction);
       std::string components;
       for (unsigned int c = 0; c < 3; ++c)
         if (support.components[c])

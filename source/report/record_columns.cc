@@ -219,6 +219,15 @@ namespace tetradapt::report
                          "solver"});
     }
 
+    void
+    add_springs(std::vector<RecordColumn> &columns)
+    {
+      columns.push_back({"spring_energy",
+                         Kind::figure,
+                         [](const Record &r) { return r.spring_energy; },
+                         "springs"});
+    }
+
     /** @p with_projection: whether points were moved to a curved boundary. */
     void
     add_mesh(const bool with_projection, std::vector<RecordColumn> &columns)
@@ -287,6 +296,7 @@ namespace tetradapt::report
   {
     std::vector<RecordColumn> columns = fixed_columns();
     add_solver(columns);
+    add_springs(columns);
     for (const std::string &name : estimators)
       add_estimator(name, columns);
     for (const std::string &name : goals)

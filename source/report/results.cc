@@ -115,6 +115,20 @@ namespace tetradapt::report
     };
     add_all("support", record.equilibrium->supports);
     add_all("load", record.equilibrium->loads);
+    for (const solve::ReferencePoint &point : record.equilibrium->reference_points)
+      {
+        dealii::Tensor<1, 3> t, R;
+        for (unsigned int c = 0; c < 3; ++c)
+          {
+            t[c] = point.motion[c];
+            R[c] = point.motion[3 + c];
+          }
+        const std::string name = "support " + point.name;
+        add_vector(name + " reference point", point.point);
+        add_vector(name + " translation", t);
+        add_vector(name + " rotation", R);
+        add_vector(name + " moment about it", point.reaction.moment);
+      }
     add("relative imbalance", record.equilibrium->relative_imbalance);
     add("allowed imbalance", record.equilibrium->allowed_imbalance);
     return results;

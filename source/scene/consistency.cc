@@ -80,6 +80,25 @@ namespace tetradapt::scene
     if (first.selector.ids != second.selector.ids || first.selector.groups != second.selector.groups
         || first.selector.where != second.selector.where)
       return;
+    if (first.type == SupportType::spring || second.type == SupportType::spring)
+      return;
+    require(first.type == second.type
+              || (first.type != SupportType::rigid && second.type != SupportType::rigid),
+            "Supports/" + second.name + "/Type",
+            "the support '" + first.name
+              + "' holds the same faces, and one of them couples these rigidly to a reference "
+                "point. Choose other faces for one of them.");
+    require(first.type != SupportType::rigid || second.type != SupportType::rigid,
+            "Supports/" + second.name,
+            "the support '" + first.name
+              + "' couples the same faces to a reference point. Use one of them.");
+    if (first.type == SupportType::sliding && second.type == SupportType::sliding)
+      require(first.normal_displacement == second.normal_displacement,
+              "Supports/" + second.name + "/Normal displacement",
+              "it is '" + second.normal_displacement + "' on the same faces for which the support '"
+                + first.name + "' has '" + first.normal_displacement + "'. Change one of them.");
+    if (first.type != SupportType::fixed || second.type != SupportType::fixed)
+      return;
     for (unsigned int c = 0; c < 3; ++c)
       if (first.components[c] && second.components[c])
         require(first.displacement[c] == second.displacement[c],

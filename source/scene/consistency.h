@@ -54,6 +54,11 @@ namespace tetradapt::scene
   void
   check_compatible(const SupportParameters &first, const SupportParameters &second);
 
+  /** What sliding and rigid supports ask of formulation, reference, solver and estimators.
+   * @throws core::InputError */
+  void
+  check_support_types(const Scene &scene);
+
   /** @throws InputError if a Young modulus leaves the range in which energies can be
    * computed, or if one is more than 1e12 times another. */
   void

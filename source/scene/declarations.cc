@@ -44,13 +44,14 @@ namespace tetradapt::scene
              scene.degree,
              count_codec(),
              "Polynomial degree of the displacement: 1 (linear) or 2 (quadratic).");
-      binder("Formulation",
-             scene.formulation,
-             word_codec<Formulation>(),
-             "The unknowns and the theory: displacement, with small strains; mixed, with small "
-             "strains, the displacement of degree 2 and the pressure of degree 1, for materials "
-             "that are nearly or, with a Poisson ratio of 0.5, fully incompressible; finite strain, "
-             "the displacement with large deformation, for laws that are made for that.");
+      binder(
+        "Formulation",
+        scene.formulation,
+        word_codec<Formulation>(),
+        "The unknowns and the theory: displacement, with small strains; mixed, with small "
+        "strains, the displacement of degree 2 and the pressure of degree 1, for materials "
+        "that are nearly or, with a Poisson ratio of 0.5, fully incompressible; finite strain, "
+        "the displacement with large deformation, for laws that are made for that.");
     }
 
     /** Calls @p act with each part of @p scene inside its section. */

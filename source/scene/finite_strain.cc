@@ -14,25 +14,25 @@ namespace tetradapt::scene
     {
       switch (load.type)
         {
-          case LoadType::pressure:
-            return "a pressure follows the surface, which is not available with Formulation = "
-                   "finite strain. A traction with nx, ny, nz keeps the direction that it has at "
-                   "rest: set Type = traction and, for a pressure p, Value = -p*nx; -p*ny; -p*nz.";
-          case LoadType::rotation:
-            return "the centrifugal force depends on where the deformed body is, which is not "
-                   "available with Formulation = finite strain.";
-          case LoadType::temperature:
-            return "thermal strain is for small strains only. Set Formulation = displacement and a "
-                   "law for small strains.";
-          case LoadType::total_force:
-            // About makes a couple of tractions, even with a moment of zero.
-            return !all_zero(load.total.moment) || load.total.about
-                     ? "its tractions keep the direction that they have at rest, so that their "
-                       "moment changes as the body deforms. With Formulation = finite strain leave "
-                       "out Moment and About."
-                     : "";
-          default:
-            return "";
+        case LoadType::pressure:
+          return "a pressure follows the surface, which is not available with Formulation = "
+                 "finite strain. A traction with nx, ny, nz keeps the direction that it has at "
+                 "rest: set Type = traction and, for a pressure p, Value = -p*nx; -p*ny; -p*nz.";
+        case LoadType::rotation:
+          return "the centrifugal force depends on where the deformed body is, which is not "
+                 "available with Formulation = finite strain.";
+        case LoadType::temperature:
+          return "thermal strain is for small strains only. Set Formulation = displacement and a "
+                 "law for small strains.";
+        case LoadType::total_force:
+          // About makes a couple of tractions, even with a moment of zero.
+          return !all_zero(load.total.moment) || load.total.about
+                   ? "its tractions keep the direction that they have at rest, so that their "
+                     "moment changes as the body deforms. With Formulation = finite strain leave "
+                     "out Moment and About."
+                   : "";
+        default:
+          return "";
         }
     }
   } // namespace
@@ -46,6 +46,12 @@ namespace tetradapt::scene
         const std::string reason = why_not(load);
         mistakes.require(reason.empty(), "Loads/" + load.name + "/Type", reason);
       }
+    for (const SupportParameters &support : scene.supports)
+      mistakes.require(
+        support.type == SupportType::fixed,
+        "Supports/" + support.name + "/Type",
+        "a support of type '" + word(support.type)
+          + "' is for small strains only. With Formulation = finite strain use fixed.");
     const std::string only = " is for small strains only. With Formulation = finite strain ";
     mistakes.require(scene.reference.type == ReferenceParameters::Type::none,
                      "Reference/Type",

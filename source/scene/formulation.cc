@@ -4,8 +4,8 @@
 #include "require.h"
 #include "values.h"
 
-#include "tetradapt/scene/words.h"
 #include "tetradapt/laws/law_catalogue.h"
+#include "tetradapt/scene/words.h"
 
 namespace tetradapt::scene
 {
@@ -44,9 +44,9 @@ namespace tetradapt::scene
               others += (others.empty() ? "" : " or ") + name;
           mistakes.require(law->supports(scene.formulation),
                            "Materials/" + material.name + "/Law",
-                           "the law '" + material.law + "' is not for Formulation = "
-                             + word(scene.formulation) + ". Set Formulation = " + others
-                             + ", or choose another law.");
+                           "the law '" + material.law
+                             + "' is not for Formulation = " + word(scene.formulation)
+                             + ". Set Formulation = " + others + ", or choose another law.");
         }
       mistakes.throw_together();
     }
@@ -59,8 +59,10 @@ namespace tetradapt::scene
         mistakes.require(
           poisson_ratio(material) <= largest_nu,
           place(material),
-          "the " + word(scene.formulation) + " form cannot solve for a material with a Poisson ratio of "
-            + text_of(poisson_ratio(material)) + ": elements lock above " + text_of(largest_nu) + ". "
+          "the " + word(scene.formulation)
+            + " form cannot solve for a material with a Poisson ratio of "
+            + text_of(poisson_ratio(material)) + ": elements lock above " + text_of(largest_nu)
+            + ". "
             + (scene.formulation == Formulation::finite_strain
                  ? "Make the material more compressible."
                  : "Set Formulation = mixed and Degree = 2, which serve up to 0.5 itself."));

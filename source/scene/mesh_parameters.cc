@@ -59,7 +59,7 @@ namespace tetradapt::scene
              p.feature_angle,
              number_codec(),
              "surface: edges where it bends by more than this many degrees are kept by the "
-             "remeshing.");
+             "remeshing. Sliding supports, on any mesh: faces that meet at less share a normal.");
       binder("Volume bound",
              p.volume_bounds,
              numbers_codec(),

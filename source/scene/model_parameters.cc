@@ -7,6 +7,8 @@
 #include "place_choice.h"
 #include "require.h"
 #include "special_loads.h"
+#include "spring_supports.h"
+#include "support_types.h"
 
 #include "tetradapt/core/surface_expression.h"
 #include "tetradapt/scene/nearest_names.h"
@@ -43,8 +45,8 @@ namespace tetradapt::scene
           binder(constant.name,
                  value,
                  optional_number_codec(),
-                 constant.documentation + " Of " + users_of(constant.name) + "; empty: "
-                   + text_of(constant.standard) + ".");
+                 constant.documentation + " Of " + users_of(constant.name)
+                   + "; empty: " + text_of(constant.standard) + ".");
           if (value)
             p.constants[constant.name] = *value;
         }
@@ -98,16 +100,23 @@ namespace tetradapt::scene
     void
     bind(SupportParameters &p, Binder &binder)
     {
+      bind_support_type(p, binder);
       bind_faces(p.selector, binder);
       bind_place(p.place, true, binder);
+      std::array<bool, 3> components
+        = p.type == SupportType::spring ? SupportParameters().components : p.components;
       binder("Components",
-             p.components,
+             components,
              components_codec(),
-             "Components of the displacement that are prescribed: all, or some of x, y, z.");
-      binder("Displacement",
-             p.displacement,
-             expressions_codec<3>(false),
-             "Prescribed displacement: three expressions in x, y, z, separated by semicolons.");
+             "fixed: components of the displacement that are prescribed: all, or some of x, y, z.");
+      binder(
+        "Displacement",
+        p.displacement,
+        expressions_codec<3>(false),
+        "fixed: prescribed displacement: three expressions in x, y, z, separated by semicolons; "
+        "spring: the displacement u0 of the ground under the springs.");
+      bind_special_support(p, binder);
+      bind_spring(p, components, binder);
     }
 
     bool
@@ -262,8 +271,8 @@ namespace tetradapt::scene
     void
     check_law(const MaterialParameters &material)
     {
-      const std::string path = "Materials/" + material.name + "/";
-      Mistakes          mistakes;
+      const std::string        path = "Materials/" + material.name + "/";
+      Mistakes                 mistakes;
       std::vector<std::string> laws;
       for (const laws::LawEntry &entry : laws::law_catalogue())
         laws.push_back(entry.name);
@@ -358,7 +367,9 @@ namespace tetradapt::scene
       mistakes.attempt([&]() { check_place(place, selector, path); });
     if (!place.is_set())
       mistakes.attempt([&]() { check_faces(selector, path); });
-    mistakes.require(components[0] || components[1] || components[2],
+    check_special_support(*this, mistakes);
+    check_spring(*this, mistakes);
+    mistakes.require(type == SupportType::spring || components[0] || components[1] || components[2],
                      path + "/Components",
                      "name at least one of x, y, z, or all.");
     for (unsigned int c = 0; c < 3; ++c)
@@ -368,7 +379,8 @@ namespace tetradapt::scene
         double            value    = 0.;
         bool              constant = false;
         if (mistakes.attempt([&]() { constant = constant_value(displacement[c], what, value); }))
-          mistakes.require(components[c] || (constant && value == 0.),
+          mistakes.require(type == SupportType::spring || components[c]
+                             || (constant && value == 0.),
                            path + "/Displacement",
                            "it prescribes the component " + letter + " ('" + displacement[c]
                              + "'), which Components leaves free. Add " + letter

@@ -8,6 +8,8 @@
 #include "place_choice.h"
 #include "require.h"
 #include "special_loads.h"
+#include "spring_supports.h"
+#include "support_types.h"
 #include "values.h"
 
 #include <algorithm>
@@ -75,7 +77,7 @@ namespace tetradapt::scene
       for (const auto &support : scene.supports)
         {
           for (unsigned int c = 0; c < 3; ++c)
-            held[c] = held[c] || support.components[c];
+            held[c] = held[c] || may_hold(support, c);
         }
       for (unsigned int c = 0; c < 3; ++c)
         mistakes.require(held[c],
@@ -109,8 +111,7 @@ namespace tetradapt::scene
         anything = anything
                    || (zero_parameter(load).empty()
                        && (load.type != LoadType::temperature || expands(scene, load)));
-      for (const auto &support : scene.supports)
-        anything = anything || !all_zero(support.displacement);
+      anything = anything || moves_supports(scene) || loads_supports(scene);
       mistakes.require(
         anything,
         "Loads",
@@ -166,7 +167,8 @@ namespace tetradapt::scene
         "exact needs the exact displacement. Give Exact solution/Displacement, or use spr or "
         "another "
         "estimator that does not need it.");
-      mistakes.require(which != ErrorEstimator::richardson || scene.loads.empty()
+      mistakes.require(which != ErrorEstimator::richardson
+                         || (scene.loads.empty() && !loads_supports(scene))
                          || !moves_supports(scene),
                        path,
                        "richardson extrapolates the energy, which gives the error only if either "
@@ -336,8 +338,11 @@ namespace tetradapt::scene
         check_formulation);
     fit({"Loads", "Supports", "Materials"}, check_loads);
     fit({"Reference", "Mesh"}, check_reference);
+    fit({"Supports", "Formulation", "Reference", "Solver", "Estimation", "Adaptivity"},
+        check_support_types);
     fit({"Supports", "Loads", "Reference", "Exact solution", "Estimation", "Adaptivity"},
         check_point_conditions);
+    fit({"Supports", "Formulation", "Reference", "Exact solution"}, check_spring_supports);
     fit({"Estimation", "Goals", "Reference", "Exact solution", "Supports", "Loads"},
         check_estimation);
     fit({"Adaptivity",

@@ -35,11 +35,10 @@ namespace tetradapt::scene
     std::pair<const MaterialParameters *, const MaterialParameters *>
     softest_and_stiffest(const Scene &scene)
     {
-      const auto ends = std::minmax_element(scene.materials.begin(),
-                                            scene.materials.end(),
-                                            [](const auto &a, const auto &b) {
-                                              return modulus(a) < modulus(b);
-                                            });
+      const auto ends
+        = std::minmax_element(scene.materials.begin(),
+                              scene.materials.end(),
+                              [](const auto &a, const auto &b) { return modulus(a) < modulus(b); });
       return {&*ends.first, &*ends.second};
     }
 
@@ -47,8 +46,7 @@ namespace tetradapt::scene
     contrast_message(const MaterialParameters &soft, const MaterialParameters &stiff)
     {
       return "is " + text_of(modulus(stiff)) + ", which is "
-             + text_of(modulus(stiff) / modulus(soft)) + " times that of '" + soft.name
-             + "': ";
+             + text_of(modulus(stiff) / modulus(soft)) + " times that of '" + soft.name + "': ";
     }
   } // namespace
 

@@ -314,6 +314,31 @@ namespace tetradapt::scene
             [](const std::optional<double> &value) { return value ? text_of(*value) : ""; }};
   }
 
+  Codec<std::array<std::optional<double>, 3>>
+  motion_codec()
+  {
+    using Motion = std::array<std::optional<double>, 3>;
+    return {"three components separated by commas, each a number or 'free', such as 0, free, 0",
+            [](const std::string &text, Motion &value) {
+              const auto parts = split(text, ',');
+              if (parts.size() != 3)
+                return false;
+              for (unsigned int c = 0; c < 3; ++c)
+                {
+                  value[c].reset();
+                  if (parts[c] != "free" && !read_double(parts[c], value[c].emplace()))
+                    return false;
+                }
+              return true;
+            },
+            [](const Motion &value) {
+              std::string text;
+              for (const auto &component : value)
+                text += (text.empty() ? "" : ", ") + (component ? text_of(*component) : "free");
+              return text;
+            }};
+  }
+
   Codec<std::optional<dealii::Point<3>>>
   optional_point_codec()
   {

@@ -117,6 +117,9 @@ namespace tetradapt::scene
   /** A number, or nothing. */
   Codec<std::optional<double>>
   optional_number_codec();
+  /** Three components, each a number or "free". */
+  Codec<std::array<std::optional<double>, 3>>
+  motion_codec();
   /** A point, or nothing. */
   Codec<std::optional<dealii::Point<3>>>
   optional_point_codec();

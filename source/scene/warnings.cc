@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "consistency.h"
 #include "special_loads.h"
+#include "values.h"
 
 #include "tetradapt/scene/words.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace tetradapt::scene
@@ -14,6 +17,9 @@ namespace tetradapt::scene
     using Strategy  = AdaptivityParameters::Strategy;
     using Route     = ReferenceParameters::MeshRoute;
     using Reference = ReferenceParameters::Type;
+
+    /** Angles above make faces larger by 2 % and more. */
+    constexpr double largest_rotation = 0.2;
 
     /** Parameters that another choice makes meaningless, with that choice. */
     std::vector<std::pair<std::string, std::string>>
@@ -37,7 +43,11 @@ namespace tetradapt::scene
       when(mesh.source != MeshSource::blocks,
            {"Mesh/Blocks", "Mesh/Block regions"},
            "Mesh/Type = " + word(mesh.source));
-      when(mesh.source != MeshSource::surface,
+      const bool slides
+        = std::any_of(scene.supports.begin(), scene.supports.end(), [](const auto &support) {
+            return support.type == SupportType::sliding;
+          });
+      when(mesh.source != MeshSource::surface && !slides,
            {"Mesh/Feature angle"},
            "Mesh/Type = " + word(mesh.source));
       const bool        fine = reference.type == Reference::fine_mesh;
@@ -108,6 +118,14 @@ namespace tetradapt::scene
                              + "/Type: the temperature does nothing, for no material it acts on "
                                "has a Thermal expansion.");
       }
+    for (const auto &support : supports)
+      if (support.type == SupportType::rigid)
+        for (const auto &angle : support.rigid.rotation)
+          if (std::abs(angle.value_or(0.)) > largest_rotation)
+            messages.push_back(
+              "Supports/" + support.name + "/Rotation: " + text_of(*angle)
+              + " radians are not small: points move along tangents, and the faces "
+                "grow. Angles are in radians.");
     if (const std::string message = stiffness_warning(*this); !message.empty())
       messages.push_back(message);
     if (tetgen.radius_edge_ratio < 1.1)

@@ -23,6 +23,24 @@ namespace tetradapt::scene
     return table;
   }
 
+  const Words<SupportType> &
+  words(SupportType)
+  {
+    static const Words<SupportType> table{{SupportType::fixed, "fixed"},
+                                          {SupportType::sliding, "sliding"},
+                                          {SupportType::rigid, "rigid"},
+                                          {SupportType::spring, "spring"}};
+    return table;
+  }
+
+  const Words<SpringDirection> &
+  words(SpringDirection)
+  {
+    static const Words<SpringDirection> table{{SpringDirection::normal, "normal"},
+                                              {SpringDirection::all, "all"}};
+    return table;
+  }
+
   const Words<LoadType> &
   words(LoadType)
   {

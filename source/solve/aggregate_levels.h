@@ -64,13 +64,20 @@ namespace tetradapt::solve
     std::vector<std::array<Number, 6 * n>> blocks;
   };
 
-  /** A level with n unknowns a node; @p degree is that of its smoother. */
+  /** A level with n unknowns a node; @p degree is that of its smoother, which leaves what
+   * @p aggregates couple alone, if these are not null. */
   template <typename Number, unsigned int n>
   struct Level
   {
-    Level(const BlockRows<n, n> &rows, const Layout &layout, unsigned int degree, double scale = 1.)
+    Level(const BlockRows<n, n> &rows,
+          const Layout          &layout,
+          unsigned int           degree,
+          double                 scale      = 1.,
+          const RigidAggregates *aggregates = nullptr)
       : matrix(rows, layout, scale),
-        smoother(matrix, invert_blocks<Number, n>(matrix.diagonal_blocks()), degree),
+        smoother(matrix,
+                 without(aggregates, invert_blocks<Number, n>(matrix.diagonal_blocks())),
+                 degree),
         residual(layout)
     {
       if (n == 6)

@@ -114,10 +114,12 @@ namespace tetradapt::solve
           const Layout                    &layout,
           const Aggregates                &aggregates,
           const std::vector<double>       &omegas,
-          const double                     least_reduction)
+          const double                     least_reduction,
+          const RigidAggregates           *rigid)
   {
-    const auto         firsts = first_numbers(aggregates.count, layout);
-    const unsigned int total  = firsts.back();
+    const unsigned int n_rigid = rigid == nullptr ? 0 : rigid->n_owned();
+    const auto         firsts  = first_numbers(aggregates.count + n_rigid, layout);
+    const unsigned int total   = firsts.back();
     if (total == 0 || least_reduction * total > layout->size() / n)
       return std::nullopt;
     auto           tentative = tentative_prolongation<n>(aggregates, modes);
@@ -127,20 +129,26 @@ namespace tetradapt::solve
     auto          &P      = result.prolongation;
     CoarseMatrix  &coarse = result.coarse;
     coarse.n_nodes        = total;
-    const LocalTentative<n> local
+    LocalTentative<n> local
       = with_ghosts<n>(aggregates, tentative.rows, firsts[layout->this_mpi_process()], layout);
+    if constexpr (n == 3)
+      if (rigid != nullptr)
+        rigid->add_to(local, firsts);
+    const auto inverses = [&]() { return without(rigid, inverse_diagonal(matrix)); };
     if (omegas.empty())
       P = unsmoothed(local, matrix.n_rows());
     else
-      P = smooth<n>(matrix, inverse_diagonal(matrix), local, total, omegas[0]);
+      P = smooth<n>(matrix, inverses(), local, total, omegas[0]);
     append_ghost_rows(P, layout);
     for (unsigned int k = 1; k < omegas.size(); ++k)
       {
-        P = smooth_further<n>(matrix, inverse_diagonal(matrix), P, total, omegas[k]);
+        P = smooth_further<n>(matrix, inverses(), P, total, omegas[k]);
         append_ghost_rows(P, layout);
       }
     coarse.rows  = galerkin(matrix, P, total);
     coarse.modes = std::move(tentative.coarse_modes);
+    if (rigid != nullptr)
+      coarse.modes.insert(coarse.modes.end(), rigid->modes().begin(), rigid->modes().end());
     keep_rows(P, matrix.n_rows());
     if (is_shared && total >= least_nodes_of_rank * layout->n_mpi_processes())
       {
@@ -166,12 +174,14 @@ namespace tetradapt::solve
           const Layout &,
           const Aggregates &,
           const std::vector<double> &,
-          double);
+          double,
+          const RigidAggregates *);
   template std::optional<Coarsening<6>>
   coarsen(const BlockRows<6, 6> &,
           const std::vector<NodeModes<6>> &,
           const Layout &,
           const Aggregates &,
           const std::vector<double> &,
-          double);
+          double,
+          const RigidAggregates *);
 } // namespace tetradapt::solve

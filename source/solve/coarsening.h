@@ -3,6 +3,7 @@
 #define tetradapt_source_solve_coarsening_h
 
 #include "node_exchange.h"
+#include "rigid_aggregates.h"
 
 #include <optional>
 
@@ -34,6 +35,8 @@ namespace tetradapt::solve
    * @param aggregates are sets of the owned nodes.
    * @param omegas smooth the prolongation, one factor after the other:
    *        P = ... (1 - omegas[1] D^-1 A) (1 - omegas[0] D^-1 A) T. None: P = T.
+   * @param rigid if not null, are further aggregates, of nodes that are in none of @p aggregates;
+   *        their part of the prolongation is not smoothed.
    * @param least_reduction is how many times fewer nodes are worth a level.
    * @return nothing if the reduction is less, or if there is nothing to be corrected.
    */
@@ -44,7 +47,8 @@ namespace tetradapt::solve
           const Layout                    &layout,
           const Aggregates                &aggregates,
           const std::vector<double>       &omegas,
-          double                           least_reduction);
+          double                           least_reduction,
+          const RigidAggregates           *rigid = nullptr);
 } // namespace tetradapt::solve
 
 #endif

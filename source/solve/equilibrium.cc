@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace tetradapt::solve
 {
@@ -65,6 +66,7 @@ namespace tetradapt::solve
     void
     list_forces(const LoadedSystem                          &system,
                 const mechanics::Reactions                  &reactions,
+                const mechanics::SpringForces               &springs,
                 const std::vector<mechanics::RegionFigures> &regions,
                 Equilibrium                                 &result)
     {
@@ -76,7 +78,11 @@ namespace tetradapt::solve
           const std::string &name   = scene.supports[s].name;
           mechanics::Extent  extent = patches.of("Supports/" + name);
           extent.n_nodes            = reactions.n_nodes[s];
-          result.supports.push_back({name, "support", reactions.supports[s], extent});
+          const bool is_spring      = scene.supports[s].type == scene::SupportType::spring;
+          result.supports.push_back({name,
+                                     is_spring ? scene::word(scene.supports[s].type) : "support",
+                                     is_spring ? springs.supports[s] : reactions.supports[s],
+                                     extent});
         }
       for (unsigned int l = 0; l < scene.loads.size(); ++l)
         {
@@ -88,6 +94,52 @@ namespace tetradapt::solve
             extent.n_nodes = 1;
           result.loads.push_back({load.name, scene::word(load.type), system.loads[l], extent});
         }
+    }
+
+    /** Lists reference points and what acts on them. */
+    void
+    list_reference_points(const LoadedSystem     &system,
+                          const mesh::NodalField &displacement,
+                          Equilibrium            &result)
+    {
+      const mechanics::PatchExtents patches(system.space.tet_mesh());
+      for (const mechanics::RigidCoupling &coupling : system.prescribed.rigid)
+        {
+          const auto    &parameters = system.scene.supports[coupling.support];
+          const auto    &reaction   = result.supports[coupling.support].resultant;
+          ReferencePoint point;
+          point.name                          = parameters.name;
+          point.point                         = coupling.reference;
+          point.motion                        = coupling.motion_of(displacement.values);
+          point.reaction.force                = reaction.force;
+          point.reaction.moment               = reaction.moment_about(coupling.reference);
+          std::tie(point.force, point.moment) = mechanics::reference_forces(parameters);
+          if (point.force.norm_square() + point.moment.norm_square() > 0.)
+            {
+              ActingForce acting{parameters.name,
+                                 "reference point",
+                                 {},
+                                 patches.of("Supports/" + parameters.name)};
+              acting.resultant.add(coupling.reference, point.force);
+              acting.resultant.moment += point.moment;
+              result.loads.push_back(acting);
+            }
+          result.reference_points.push_back(point);
+        }
+    }
+
+    /** Counts the springs among what reactions say of all supports. Where nodes that the springs
+     * have are also held, the layer's energy is taken too large. */
+    void
+    add_springs(const LoadedSystem            &system,
+                const mechanics::SpringForces &springs,
+                mechanics::Reactions          &reactions)
+    {
+      reactions.magnitude += springs.magnitude;
+      for (const auto &face : system.springs.faces())
+        for (const auto &point : face.points)
+          for (unsigned int c = 0; c < 3; ++c)
+            reactions.layer_energy[c] += point.weight * point.stiffness[c][c];
     }
 
     /** Fills everything but the lists and the imbalance. */
@@ -126,18 +178,29 @@ namespace tetradapt::solve
                       const StaticSolution                        &solution,
                       const std::vector<mechanics::RegionFigures> &regions)
   {
-    const mechanics::Reactions reactions
+    const mechanics::SpringForces springs
+      = mechanics::spring_forces(system.springs, *solution.displacement);
+    std::vector<dealii::Tensor<1, 3>> loads_and_springs;
+    if (!system.springs.empty())
+      {
+        loads_and_springs = system.forces;
+        for (std::size_t node = 0; node < loads_and_springs.size(); ++node)
+          loads_and_springs[node] += springs.nodal[node];
+      }
+    mechanics::Reactions reactions
       = mechanics::compute_reactions(system.space,
                                      system.materials,
                                      system.prescribed,
-                                     system.forces,
+                                     system.springs.empty() ? system.forces : loads_and_springs,
                                      system.internal_forces,
                                      *solution.displacement,
                                      system.scene.supports.size(),
                                      is_unfinished(system, solution));
+    add_springs(system, springs, reactions);
     Equilibrium    result;
     const NodalSum loads = sum_of(system, *solution.displacement);
-    list_forces(system, reactions, regions, result);
+    list_forces(system, reactions, springs, regions, result);
+    list_reference_points(system, *solution.displacement, result);
     result.imbalance = loads.resultant;
     for (const ActingForce &support : result.supports)
       result.imbalance += support.resultant;

@@ -420,8 +420,8 @@ namespace tetradapt::solve
         materials.thermal_density(),
         space,
         [&](const Tensor<1, 3> &value, int region, Tensor<1, 3> &, SymmetricTensor<2, 3> &stress) {
-          stress = materials.linear_law(region).stress(value[0]
-                                                * Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()));
+          stress = materials.linear_law(region).stress(
+            value[0] * Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()));
         },
         forces);
     forces.compress(dealii::VectorOperation::add);

@@ -5,6 +5,7 @@
 #include "tetradapt/solve/indefinite_matrix.h"
 
 #include "flat_correction.h"
+#include "rigid_solvers.h"
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/affine_constraints.h>
@@ -42,16 +43,26 @@ namespace tetradapt::solve
     /** One cycle of algebraic multigrid for a matrix of degree 1 times @p scale. */
     template <typename Number>
     std::unique_ptr<ApproximateInverse<Number>>
-    coarse_solver(const scene::SolverParameters &parameters,
-                  const mechanics::BlockMatrix  &matrix,
-                  const fem::Space              &space,
-                  const fem::FixedUnknowns      &fixed,
-                  const double                   scale)
+    coarse_solver(const scene::SolverParameters   &parameters,
+                  const mechanics::BlockMatrix    &matrix,
+                  const fem::Space                &space,
+                  const fem::FixedUnknowns        &fixed,
+                  const double                     scale,
+                  const mechanics::RigidCouplings *couplings)
     {
       if constexpr (std::is_same_v<Number, double>)
         if (parameters.multigrid == scene::SolverParameters::Multigrid::trilinos)
           return make_trilinos_amg(matrix, space, fixed);
-      return make_amg<Number>(matrix, space, fixed, scale);
+      return make_amg<Number>(matrix, space, fixed, scale, couplings);
+    }
+
+    dealii::Tensor<1, 3>
+    at_node(const Vector &x, const unsigned int node)
+    {
+      dealii::Tensor<1, 3> value;
+      for (unsigned int c = 0; c < 3; ++c)
+        value[c] = x.local_element(3 * node + c);
+      return value;
     }
 
     bool
@@ -67,25 +78,37 @@ namespace tetradapt::solve
                              const scene::SolverParameters &parameters,
                              const core::Log               &log)
     : model(model), space(model.space), fixed(model.space, model.constraints),
+      couplings(model.couplings != nullptr && !model.couplings->empty() ? model.couplings
+                                                                        : nullptr),
       parameters(parameters), log(log)
   {
-    const bool factorise = is_direct(parameters, space.n_dofs());
-    if (factorise || space.degree() == 1)
+    if (model.springs != nullptr && !model.springs->empty())
+      springs.emplace(mechanics::make_spring_matrix(*model.springs, space));
+    const bool is_small = is_direct(parameters, space.n_dofs());
+    if (is_small || space.degree() == 1)
       assembled = std::make_unique<mechanics::LinearSystem>(
-        mechanics::assemble(space, model.tangents, fixed));
+        mechanics::assemble(space, model.tangents, fixed, spring_matrix()));
     else
-      matrix_free
-        = std::make_unique<mechanics::MatrixFreeStiffness<double>>(space, model.tangents, fixed);
-    log.progress(factorise ? "factorising" : "building the preconditioner");
-    if (factorise)
+      matrix_free = std::make_unique<mechanics::MatrixFreeStiffness<double>>(
+        space, model.tangents, fixed, 1., spring_matrix());
+    if (couplings != nullptr)
+      coupled_matrix
+        = std::make_unique<mechanics::RigidlyCoupledOperator>(nodal_matrix(), *couplings);
+    log.progress(is_small ? "factorising" : "building the preconditioner");
+    if (is_small)
       {
-        direct = std::make_unique<DirectSolver>(assembled->matrix, space, model.tangents.is_full());
+        factorise(assembled->matrix);
         description = "direct (Cholesky)";
       }
     else
       {
         if (space.degree() == 2)
           flat = find_flat_nodes(space);
+        // What is coupled is left to the coarse levels.
+        if (couplings != nullptr && flat.exist)
+          for (const auto &node : couplings->nodes())
+            if (node.local < flat.reach.size())
+              flat.reach[node.local] = 0.;
         const bool ml = parameters.multigrid == scene::SolverParameters::Multigrid::trilinos;
         // Where cells are very flat, the plain cycle would be given up in any case.
         if (ml || flat.are_very_flat)
@@ -96,6 +119,32 @@ namespace tetradapt::solve
                       + (space.degree() == 1 ? "" : "p-multigrid on ")
                       + (ml ? "Trilinos' AMG" : "AMG");
       }
+  }
+
+  LinearSolver::~LinearSolver() = default;
+
+  void
+  LinearSolver::factorise(const mechanics::BlockMatrix &matrix) const
+  {
+    if (couplings != nullptr)
+      rigid_direct = std::make_unique<RigidDirectSolver>(matrix, space, *couplings);
+    else
+      direct = std::make_unique<DirectSolver>(matrix, space, model.tangents.is_full());
+  }
+
+  bool
+  LinearSolver::is_factorised() const
+  {
+    return direct != nullptr || rigid_direct != nullptr;
+  }
+
+  void
+  LinearSolver::solve_directly(const Vector &right_hand_side, Vector &x) const
+  {
+    if (rigid_direct != nullptr)
+      rigid_direct->solve(right_hand_side, x);
+    else
+      direct->solve(right_hand_side, x);
   }
 
   double
@@ -119,23 +168,43 @@ namespace tetradapt::solve
   LinearSolver::multigrid(double scale) const
   {
     if (space.degree() == 1)
-      return coarse_solver<Number>(parameters, assembled->matrix, space, fixed, scale);
+      return coarse_solver<Number>(parameters, assembled->matrix, space, fixed, scale, couplings);
     coarse_space = fem::Space::linear_part(space);
     const fem::FixedUnknowns coarse_fixed(
       *coarse_space, fem::restrict_to(*coarse_space, space, model.constraints));
-    const auto coarse = mechanics::assemble(*coarse_space, model.tangents, coarse_fixed);
+    std::optional<mechanics::SpringMatrix<double>> coarse_springs;
+    if (springs)
+      coarse_springs.emplace(mechanics::make_spring_matrix(*model.springs, *coarse_space));
+    const auto                                       coarse = mechanics::assemble(*coarse_space,
+                                            model.tangents,
+                                            coarse_fixed,
+                                            coarse_springs ? &*coarse_springs : nullptr);
+    std::vector<mechanics::RigidCoupling>            at_vertices;
+    std::unique_ptr<const mechanics::RigidCouplings> coarse_couplings;
+    if (couplings != nullptr)
+      {
+        at_vertices      = restrict_to_vertices(couplings->all(), space.tet_mesh().n_points());
+        coarse_couplings = std::make_unique<mechanics::RigidCouplings>(at_vertices, *coarse_space);
+      }
     std::unique_ptr<FlatCorrection<Number>> flat_correction;
     // Bending of flat cells is lost in the rounding of single precision.
     if (flat.exist && std::is_same_v<Number, double>)
       flat_correction = std::make_unique<FlatCorrection<Number>>(
-        mechanics::assemble(space, model.tangents, fixed).matrix.rows(), space, fixed, flat, scale);
+        mechanics::assemble(space, model.tangents, fixed, spring_matrix()).matrix.rows(),
+        space,
+        fixed,
+        flat,
+        scale);
     return make_p_multigrid<Number>(
-      std::make_unique<mechanics::MatrixFreeStiffness<Number>>(space, model.tangents, fixed, scale),
+      std::make_unique<mechanics::MatrixFreeStiffness<Number>>(
+        space, model.tangents, fixed, scale, spring_matrix()),
       space,
       *coarse_space,
       fixed,
-      coarse_solver<Number>(parameters, coarse.matrix, *coarse_space, coarse_fixed, scale),
-      std::move(flat_correction));
+      coarse_solver<Number>(
+        parameters, coarse.matrix, *coarse_space, coarse_fixed, scale, coarse_couplings.get()),
+      std::move(flat_correction),
+      couplings);
   }
 
   void
@@ -144,7 +213,9 @@ namespace tetradapt::solve
     // Entries near one stay in the range of single precision whatever the units.
     const double scale = 1. / largest_diagonal();
     preconditioner     = in_double(multigrid<float>(scale), scale, space.vector_layout());
-    is_single          = true;
+    if (couplings != nullptr)
+      preconditioner = std::make_unique<RigidPreconditioner>(std::move(preconditioner), *couplings);
+    is_single = true;
   }
 
   void
@@ -152,11 +223,21 @@ namespace tetradapt::solve
   {
     preconditioner.reset();
     preconditioner = multigrid<double>(1.);
-    is_single      = false;
+    if (couplings != nullptr)
+      preconditioner = std::make_unique<RigidPreconditioner>(std::move(preconditioner), *couplings);
+    is_single = false;
   }
 
   const mechanics::LinearOperator<double> &
   LinearSolver::matrix() const
+  {
+    if (coupled_matrix != nullptr)
+      return *coupled_matrix;
+    return nodal_matrix();
+  }
+
+  const mechanics::LinearOperator<double> &
+  LinearSolver::nodal_matrix() const
   {
     if (matrix_free != nullptr)
       return *matrix_free;
@@ -166,8 +247,23 @@ namespace tetradapt::solve
   Vector
   LinearSolver::right_hand_side(const std::vector<dealii::Tensor<1, 3>> &forces) const
   {
-    return matrix_free != nullptr ? matrix_free->right_hand_side(forces)
-                                  : mechanics::right_hand_side(*assembled, space, fixed, forces);
+    Vector b = matrix_free != nullptr
+                 ? matrix_free->right_hand_side(forces)
+                 : mechanics::right_hand_side(*assembled, space, fixed, forces);
+    if (couplings == nullptr)
+      return b;
+    if (!couplings->is_homogeneous())
+      {
+        Vector prescribed(space.vector_layout()), force(space.vector_layout());
+        couplings->add_prescribed(1., prescribed);
+        Vector free(prescribed);
+        couplings->project(free);
+        prescribed -= free; // as in solve()
+        nodal_matrix().vmult(force, prescribed);
+        b -= force;
+      }
+    couplings->project(b);
+    return b;
   }
 
   double
@@ -176,13 +272,14 @@ namespace tetradapt::solve
     // What is left of the residual when only the prescribed displacements are applied.
     double sum = 0., largest = 0.;
     for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
-      for (unsigned int c = 0; c < 3; ++c)
-        if (!fixed.is_fixed(node, c))
+      {
+        const auto force = fixed.free_part(node, at_node(right_hand_side, node));
+        for (unsigned int c = 0; c < 3; ++c)
           {
-            const double value = right_hand_side.local_element(3 * node + c);
-            sum += value * value;
-            largest = std::max(largest, std::abs(value));
+            sum += force[c] * force[c];
+            largest = std::max(largest, std::abs(force[c]));
           }
+      }
     sum     = dealii::Utilities::MPI::sum(sum, space.communicator());
     largest = dealii::Utilities::MPI::max(largest, space.communicator());
     // Squares of tiny loads vanish, and nothing would move.
@@ -199,23 +296,49 @@ namespace tetradapt::solve
                       const std::string &load,
                       Vector            &x) const
   {
+    if (couplings == nullptr)
+      return solve_nodal(right_hand_side, stop, load, x);
+    // What is prescribed of the motions stays as it is, but for what the free ones can be.
+    Vector prescribed(x);
+    couplings->project(x);
+    prescribed -= x;
+    LinearStop stop_of_rest = stop;
+    if (stop.energy)
+      stop_of_rest.energy = [&](const Vector &rest) {
+        Vector whole(rest);
+        whole += prescribed;
+        return stop.energy(whole);
+      };
+    const LinearResult result = solve_nodal(right_hand_side, stop_of_rest, load, x);
+    x += prescribed;
+    return result;
+  }
+
+  LinearResult
+  LinearSolver::solve_nodal(const Vector      &right_hand_side,
+                            const LinearStop  &stop,
+                            const std::string &load,
+                            Vector            &x) const
+  {
     const double norm = load_norm(right_hand_side, load);
     if (!std::isfinite(norm))
       throw core::NumericalError(load
                                  + " are not finite. Look at their values and at the material "
                                    "constants.");
-    if (direct != nullptr)
+    if (is_factorised())
       {
-        direct->solve(right_hand_side, x);
+        solve_directly(right_hand_side, x);
         return {0, 0, 0., description};
       }
     if (norm > 0.)
       return iterate(right_hand_side, stop, norm, x);
     // Nothing moves but what is fixed, and that moves nothing else.
     for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
-      for (unsigned int c = 0; c < 3; ++c)
-        if (!fixed.is_fixed(node, c))
-          x.local_element(3 * node + c) = 0.;
+      {
+        const auto u = at_node(x, node), held = u - fixed.free_part(node, u);
+        for (unsigned int c = 0; c < 3; ++c)
+          x.local_element(3 * node + c) = held[c];
+      }
     return {0, 0, 0., "nothing to solve: no load"};
   }
 
@@ -277,7 +400,7 @@ namespace tetradapt::solve
         if (!step.converged && can_factorise_instead())
           {
             factorise_instead(result.iterations);
-            direct->solve(right_hand_side, x);
+            solve_directly(right_hand_side, x);
             return {0, 0, 0., "direct (Cholesky), since conjugate gradients did not converge"};
           }
         if (!step.converged)
@@ -351,12 +474,9 @@ namespace tetradapt::solve
                   + ", since they converge too slowly: elements are very flat or long, "
                     "or materials differ very much in stiffness. The direct solver takes over.");
     log.progress("factorising");
-    direct
-      = std::make_unique<DirectSolver>(assembled != nullptr
-                                         ? assembled->matrix
-                                         : mechanics::assemble(space, model.tangents, fixed).matrix,
-                                       space,
-                                       model.tangents.is_full());
+    factorise(assembled != nullptr
+                ? assembled->matrix
+                : mechanics::assemble(space, model.tangents, fixed, spring_matrix()).matrix);
     preconditioner.reset();
   }
 
@@ -375,8 +495,8 @@ namespace tetradapt::solve
   void
   LinearSolver::precondition(Vector &destination, const Vector &source) const
   {
-    if (direct != nullptr)
-      direct->solve(source, destination);
+    if (is_factorised())
+      solve_directly(source, destination);
     else
       preconditioner->vmult(destination, source);
   }

@@ -13,8 +13,8 @@ namespace tetradapt::solve
     /** Part of the decrease by the slope that a step must reach (Armijo). */
     constexpr double enough_decrease = 1e-4;
     /** A step that makes the residual this much smaller is taken whatever the potential says. */
-    constexpr double enough_reduction = 0.5;
-    constexpr unsigned int max_halvings = 10;
+    constexpr double       enough_reduction = 0.5;
+    constexpr unsigned int max_halvings     = 10;
     /** A residual of this many times the rounding in it is rounding. */
     constexpr double floor_factor = 4.;
 
@@ -100,8 +100,8 @@ namespace tetradapt::solve
             const double goal = result.residuals.back() > 0.
                                   ? 0.3 * limits.tolerance / result.residuals.back()
                                   : linear;
-            result.linear_iterations
-              += solve_with_jacobian(x, r, std::min(0.1, std::max(linear, moves ? 0. : goal)), step);
+            result.linear_iterations += solve_with_jacobian(
+              x, r, std::min(0.1, std::max(linear, moves ? 0. : goal)), step);
           }
         catch (const IndefiniteMatrix &)
           {

@@ -96,14 +96,11 @@ namespace tetradapt::solve
   }
 
   unsigned int
-  NonlinearSolver::solve_step(const double  factor,
-                              const Vector &x,
-                              const Vector &r,
-                              const double  tolerance,
-                              Vector       &step)
+  NonlinearSolver::solve_step(
+    const double factor, const Vector &x, const Vector &r, const double tolerance, Vector &step)
   {
-    const fem::Space                  &space = model.space;
-    mechanics::PrescribedDisplacement  missing;
+    const fem::Space                 &space = model.space;
+    mechanics::PrescribedDisplacement missing;
     std::vector<dealii::Tensor<1, 3>> forces(space.n_field_nodes());
     missing.fixed = model.prescribed.fixed;
     missing.values.resize(model.prescribed.values.size());
@@ -114,22 +111,21 @@ namespace tetradapt::solve
         const unsigned int field_node = space.field_node(node);
         for (unsigned int c = 0; c < 3; ++c)
           if (model.prescribed.is_fixed(field_node, c))
-            missing.values[field_node][c] = factor * model.prescribed.values[field_node][c]
-                                            - x.local_element(3 * node + c);
+            missing.values[field_node][c]
+              = factor * model.prescribed.values[field_node][c] - x.local_element(3 * node + c);
           else if (node < space.n_owned_nodes())
             forces[field_node][c] = r.local_element(3 * node + c);
       }
     x.zero_out_ghost_values();
     const fem::Constraints constraints = mechanics::make_constraints(missing, space);
-    LinearSolver           solver(LinearModel{space, *tangents, constraints}, parameters, log);
+    LinearSolver solver(LinearModel{space, *tangents, constraints, nullptr}, parameters, log);
     fem::FixedUnknowns(space, constraints).distribute(step);
     const Vector right_hand_side = solver.right_hand_side(forces);
     LinearStop   stop;
-    stop.residual = tolerance;
-    const auto result
-      = solver.solve(right_hand_side, stop, "The forces out of balance", step);
-    last_error    = std::sqrt(std::max(0., r * step));
-    last_residual = r.l2_norm();
+    stop.residual     = tolerance;
+    const auto result = solver.solve(right_hand_side, stop, "The forces out of balance", step);
+    last_error        = std::sqrt(std::max(0., r * step));
+    last_residual     = r.l2_norm();
     return result.iterations;
   }
 
@@ -137,7 +133,7 @@ namespace tetradapt::solve
   NonlinearSolver::equilibrate(const double factor, Vector &x)
   {
     Newton newton;
-    newton.residual = [&](const Vector &at, Vector &r) { return residual(factor, at, r); };
+    newton.residual       = [&](const Vector &at, Vector &r) { return residual(factor, at, r); };
     newton.setup_jacobian = [&](const Vector &at) {
       tangents = std::make_unique<mechanics::TangentField>(stiffness.linearise(at));
     };
@@ -180,7 +176,7 @@ namespace tetradapt::solve
     try
       {
         tangents = std::make_unique<mechanics::TangentField>(stiffness.linearise(x));
-        LinearSolver solver(LinearModel{space, *tangents, constraints}, parameters, log);
+        LinearSolver solver(LinearModel{space, *tangents, constraints, nullptr}, parameters, log);
         Vector       step(x);
         step = 0.;
         LinearStop stop;
@@ -212,22 +208,22 @@ namespace tetradapt::solve
     std::ostringstream text;
     switch (result.ending)
       {
-        case Newton::Ending::inadmissible:
-          text << "elements would be turned inside out, first near "
-               << mesh::to_string(deformed.worst_place);
-          break;
-        case Newton::Ending::no_descent:
-          text << "no step makes the potential energy lower: the body may have become unstable";
-          break;
-        case Newton::Ending::too_slow:
-          text << "Newton's method did not converge in " << result.steps()
-               << " steps; the residual is " << result.residuals.back() << " of the forces";
-          break;
-        case Newton::Ending::indefinite:
-          text << "the tangent is not positive definite: the body is unstable, as where it buckles";
-          break;
-        case Newton::Ending::converged:
-          break;
+      case Newton::Ending::inadmissible:
+        text << "elements would be turned inside out, first near "
+             << mesh::to_string(deformed.worst_place);
+        break;
+      case Newton::Ending::no_descent:
+        text << "no step makes the potential energy lower: the body may have become unstable";
+        break;
+      case Newton::Ending::too_slow:
+        text << "Newton's method did not converge in " << result.steps()
+             << " steps; the residual is " << result.residuals.back() << " of the forces";
+        break;
+      case Newton::Ending::indefinite:
+        text << "the tangent is not positive definite: the body is unstable, as where it buckles";
+        break;
+      case Newton::Ending::converged:
+        break;
       }
     return text.str();
   }
@@ -237,13 +233,13 @@ namespace tetradapt::solve
   {
     NonlinearResult result;
     Vector          last(x);
-    last                      = 0.;
+    last           = 0.;
     double reached = 0., size = 1.;
     bool   from_elsewhere = !x.all_zero(); // a guess, not the body at rest
     double at_floor       = 0.; // relative residual, where rounding ended the last load step
     while (reached < 1.)
       {
-        const double   factor = std::min(1., reached + size);
+        const double   factor  = std::min(1., reached + size);
         Newton::Result attempt = equilibrate(factor, x);
         result.linear_iterations += attempt.linear_iterations;
         if (attempt.ending == Newton::Ending::converged)
@@ -251,7 +247,7 @@ namespace tetradapt::solve
             stiffness.accept();
             result.steps += attempt.steps();
             ++result.load_steps;
-            at_floor = attempt.at_floor ? attempt.residuals.back() : 0.;
+            at_floor         = attempt.at_floor ? attempt.residuals.back() : 0.;
             reached          = factor;
             last             = x;
             result.residuals = attempt.residuals;
@@ -278,10 +274,11 @@ namespace tetradapt::solve
           {
             std::ostringstream message;
             message.precision(3);
-            message << "The body is in equilibrium up to " << 0.1 * std::floor(1000. * reached)
-                    << " % of the load only. A little above that, " << reason
-                    << ". Lower the loads or the prescribed displacements, use a finer mesh, or look "
-                       "whether the body can buckle or tear there.";
+            message
+              << "The body is in equilibrium up to " << 0.1 * std::floor(1000. * reached)
+              << " % of the load only. A little above that, " << reason
+              << ". Lower the loads or the prescribed displacements, use a finer mesh, or look "
+                 "whether the body can buckle or tear there.";
             throw core::NumericalError(message.str());
           }
       }
@@ -293,7 +290,7 @@ namespace tetradapt::solve
         log.detail(text.str());
       }
     tangents.reset();
-    Vector r(x);
+    Vector              r(x);
     const Newton::State state = residual(1., x, r);
     result.stored_energy      = deformed.stored_energy;
     // The error falls with the residual in the last step.

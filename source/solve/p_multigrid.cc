@@ -11,12 +11,27 @@ namespace tetradapt::solve
 
     constexpr unsigned int smoother_degree = 3;
 
+    /** The inverses of a matrix's own blocks; zero at coupled nodes, which so stay at zero. */
+    template <typename Number>
+    std::vector<std::array<Number, 9>>
+    smoothed_blocks(const mechanics::MatrixFreeStiffness<Number> &matrix,
+                    const mechanics::RigidCouplings              *couplings)
+    {
+      auto inverses = invert_blocks<Number, 3>(matrix.diagonal_blocks());
+      if (couplings != nullptr)
+        for (const auto &node : couplings->nodes())
+          if (node.local < inverses.size())
+            inverses[node.local].fill(0);
+      return inverses;
+    }
+
     /** Embedding of degree 1 in degree 2, and its transpose. */
     class Transfer
     {
     public:
       Transfer(const fem::Space &fine, const fem::Space &coarse, const fem::FixedUnknowns &fixed)
-        : parents(fine.n_owned_nodes()), components(fine.n_owned_nodes())
+        : parents(fine.n_owned_nodes()), components(fine.n_owned_nodes()),
+          inclined(fixed.inclined())
       {
         const unsigned int n_points = fine.tet_mesh().n_points();
         for (unsigned int node = 0; node < fine.n_owned_nodes(); ++node)
@@ -37,12 +52,20 @@ namespace tetradapt::solve
       add_prolongated(VectorOf<Number> &fine, const VectorOf<Number> &coarse) const
       {
         coarse.update_ghost_values();
-        const Number *const x = coarse.begin();
-        Number             *y = fine.begin();
+        const Number *const x    = coarse.begin();
+        Number             *y    = fine.begin();
+        auto                next = inclined.begin();
         for (unsigned int node = 0; node < parents.size(); ++node, y += 3)
-          for (unsigned int c = 0; c < 3; ++c)
-            if ((components[node] >> c & 1) == 0)
-              y[c] += Number(0.5) * (x[3 * parents[node][0] + c] + x[3 * parents[node][1] + c]);
+          {
+            Number value[3];
+            for (unsigned int c = 0; c < 3; ++c)
+              value[c] = Number(0.5) * (x[3 * parents[node][0] + c] + x[3 * parents[node][1] + c]);
+            if (components[node] == fem::FixedUnknowns::is_inclined)
+              release(*next++, value);
+            for (unsigned int c = 0; c < 3; ++c)
+              if ((components[node] >> c & 1) == 0)
+                y[c] += value[c];
+          }
         coarse.zero_out_ghost_values();
       }
 
@@ -56,20 +79,41 @@ namespace tetradapt::solve
         coarse             = Number(0);
         Number *const y    = coarse.begin();
         const Number *from = b.begin(), *less = product.begin();
+        auto          next = inclined.begin();
         for (unsigned int node = 0; node < parents.size(); ++node, from += 3, less += 3)
-          for (unsigned int c = 0; c < 3; ++c)
-            if ((components[node] >> c & 1) == 0)
-              {
-                const Number half = Number(0.5) * (from[c] - less[c]);
-                y[3 * parents[node][0] + c] += half;
-                y[3 * parents[node][1] + c] += half;
-              }
+          {
+            Number half[3];
+            for (unsigned int c = 0; c < 3; ++c)
+              half[c] = Number(0.5) * (from[c] - less[c]);
+            if (components[node] == fem::FixedUnknowns::is_inclined)
+              release(*next++, half);
+            for (unsigned int c = 0; c < 3; ++c)
+              if ((components[node] >> c & 1) == 0)
+                {
+                  y[3 * parents[node][0] + c] += half[c];
+                  y[3 * parents[node][1] + c] += half[c];
+                }
+          }
         coarse.compress(dealii::VectorOperation::add);
       }
 
     private:
+      /** Takes from a node's values what is held. */
+      template <typename Number>
+      static void
+      release(const fem::InclinedNode &node, Number *values)
+      {
+        dealii::Tensor<1, 3> x;
+        for (unsigned int c = 0; c < 3; ++c)
+          x[c] = values[c];
+        x -= node.held * x;
+        for (unsigned int c = 0; c < 3; ++c)
+          values[c] = static_cast<Number>(x[c]);
+      }
+
       std::vector<std::array<unsigned int, 2>> parents;    ///< local nodes of the coarse space
       std::vector<unsigned char>               components; ///< that are fixed
+      std::vector<fem::InclinedNode>           inclined;   ///< of the fine space
     };
 
     template <typename Number>
@@ -83,11 +127,12 @@ namespace tetradapt::solve
                  const fem::Space                           &coarse_space,
                  const fem::FixedUnknowns                   &fixed,
                  std::unique_ptr<ApproximateInverse<Number>> coarse,
-                 std::unique_ptr<FlatCorrection<Number>>     flat_correction)
+                 std::unique_ptr<FlatCorrection<Number>>     flat_correction,
+                 const mechanics::RigidCouplings            *couplings)
         : matrix(std::move(fine)), transfer(fine_space, coarse_space, fixed),
           coarse_solver(std::move(coarse)), flat(std::move(flat_correction)),
           smoother(*matrix,
-                   invert_blocks<Number, 3>(matrix->diagonal_blocks()),
+                   smoothed_blocks(*matrix, couplings),
                    smoother_degree,
                    flat != nullptr ? &flat->blocks() : nullptr)
       {
@@ -138,10 +183,16 @@ namespace tetradapt::solve
                    const fem::Space                                       &coarse_space,
                    const fem::FixedUnknowns                               &fixed,
                    std::unique_ptr<ApproximateInverse<Number>>             coarse_solver,
-                   std::unique_ptr<FlatCorrection<Number>>                 flat)
+                   std::unique_ptr<FlatCorrection<Number>>                 flat,
+                   const mechanics::RigidCouplings                        *couplings)
   {
-    return std::make_unique<PMultigrid<Number>>(
-      std::move(fine), fine_space, coarse_space, fixed, std::move(coarse_solver), std::move(flat));
+    return std::make_unique<PMultigrid<Number>>(std::move(fine),
+                                                fine_space,
+                                                coarse_space,
+                                                fixed,
+                                                std::move(coarse_solver),
+                                                std::move(flat),
+                                                couplings);
   }
 
   template std::unique_ptr<ApproximateInverse<float>>
@@ -150,12 +201,14 @@ namespace tetradapt::solve
                    const fem::Space &,
                    const fem::FixedUnknowns &,
                    std::unique_ptr<ApproximateInverse<float>>,
-                   std::unique_ptr<FlatCorrection<float>>);
+                   std::unique_ptr<FlatCorrection<float>>,
+                   const mechanics::RigidCouplings *);
   template std::unique_ptr<ApproximateInverse<double>>
   make_p_multigrid(std::unique_ptr<mechanics::MatrixFreeStiffness<double>>,
                    const fem::Space &,
                    const fem::Space &,
                    const fem::FixedUnknowns &,
                    std::unique_ptr<ApproximateInverse<double>>,
-                   std::unique_ptr<FlatCorrection<double>>);
+                   std::unique_ptr<FlatCorrection<double>>,
+                   const mechanics::RigidCouplings *);
 } // namespace tetradapt::solve

@@ -28,9 +28,10 @@ namespace tetradapt::solve
         const auto x = position(space, node);
         for (unsigned int k = 0; k < 6; ++k)
           {
-            const auto motion = mechanics::rigid_motion(k, x, centre, length);
+            const auto motion
+              = fixed.free_part(node, mechanics::rigid_motion(k, x, centre, length));
             for (unsigned int c = 0; c < 3; ++c)
-              modes[node][6 * c + k] = fixed.is_fixed(node, c) ? 0. : motion[c];
+              modes[node][6 * c + k] = motion[c];
           }
       }
     return modes;

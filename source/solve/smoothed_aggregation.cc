@@ -24,15 +24,19 @@ namespace tetradapt::solve
       SmoothedAggregation(const BlockRows<3, 3>           &rows,
                           const std::vector<NodeModes<3>> &modes,
                           const Layout                    &layout,
-                          double                           scale)
-        : fine(rows, layout, smoother_degree, scale)
+                          double                           scale,
+                          const RigidAggregates           *rigid = nullptr)
+        : fine(rows, layout, smoother_degree, scale, rigid)
       {
-        auto coarsening = coarsen(rows,
-                                  modes,
-                                  layout,
-                                  aggregate(rows, fine_threshold),
-                                  {damping / fine.smoother.largest_eigenvalue()},
-                                  0.);
+        auto coarsening
+          = coarsen(rows,
+                    modes,
+                    layout,
+                    aggregate(rigid == nullptr ? rows : rigid->without_couplings(rows),
+                              fine_threshold),
+                    {damping / fine.smoother.largest_eigenvalue()},
+                    0.,
+                    rigid);
         if (!coarsening)
           return;
         fine.prolongation = Prolongation<Number, 3>(coarsening->prolongation);
@@ -66,15 +70,17 @@ namespace tetradapt::solve
 
   template <typename Number>
   std::unique_ptr<ApproximateInverse<Number>>
-  make_amg(const mechanics::BlockMatrix &matrix,
-           const fem::Space             &space,
-           const fem::FixedUnknowns     &fixed,
-           const double                  scale)
+  make_amg(const mechanics::BlockMatrix    &matrix,
+           const fem::Space                &space,
+           const fem::FixedUnknowns        &fixed,
+           const double                     scale,
+           const mechanics::RigidCouplings *couplings)
   {
-    return std::make_unique<SmoothedAggregation<Number>>(matrix.rows(),
-                                                         rigid_modes(space, fixed),
-                                                         space.vector_layout(),
-                                                         scale);
+    std::unique_ptr<RigidAggregates> rigid;
+    if (couplings != nullptr && !couplings->empty())
+      rigid = std::make_unique<RigidAggregates>(*couplings, space);
+    return std::make_unique<SmoothedAggregation<Number>>(
+      matrix.rows(), rigid_modes(space, fixed), space.vector_layout(), scale, rigid.get());
   }
 
   std::unique_ptr<Preconditioner>
@@ -86,7 +92,15 @@ namespace tetradapt::solve
   }
 
   template std::unique_ptr<ApproximateInverse<float>>
-  make_amg(const mechanics::BlockMatrix &, const fem::Space &, const fem::FixedUnknowns &, double);
+  make_amg(const mechanics::BlockMatrix &,
+           const fem::Space &,
+           const fem::FixedUnknowns &,
+           double,
+           const mechanics::RigidCouplings *);
   template std::unique_ptr<ApproximateInverse<double>>
-  make_amg(const mechanics::BlockMatrix &, const fem::Space &, const fem::FixedUnknowns &, double);
+  make_amg(const mechanics::BlockMatrix &,
+           const fem::Space &,
+           const fem::FixedUnknowns &,
+           double,
+           const mechanics::RigidCouplings *);
 } // namespace tetradapt::solve

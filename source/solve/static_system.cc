@@ -4,6 +4,8 @@
 #include "tetradapt/fem/triangulation.h"
 
 #include "tetradapt/mechanics/loads.h"
+#include "tetradapt/mechanics/rigid_motions.h"
+#include "tetradapt/mechanics/springs.h"
 #include "tetradapt/solve/energies.h"
 #include "tetradapt/solve/linear_solver.h"
 #include "tetradapt/solve/mixed_solver.h"
@@ -63,9 +65,8 @@ namespace tetradapt::solve
         {
           dealii::Tensor<1, 3> force;
           for (unsigned int c = 0; c < 3; ++c)
-            if (!prescribed.is_fixed(space.field_node(node), c))
-              force[c] = forces.local_element(3 * node + c);
-          sum += force.norm();
+            force[c] = forces.local_element(3 * node + c);
+          sum += prescribed.free_part(space.field_node(node), force).norm();
         }
       return dealii::Utilities::MPI::sum(sum, space.communicator());
     }
@@ -81,20 +82,25 @@ namespace tetradapt::solve
          const core::Log                     &caller_log)
       : scene(scene), materials(materials), mesh(std::move(mesh_pointer)), degree(degree),
         log(caller_log), edges(edges_for(*mesh, degree)),
-        prescribed(mechanics::prescribe(scene.supports, *mesh, edges.get())),
+        prescribed(mechanics::prescribe(scene.supports, *mesh, edges.get(), scene.mesh)),
+        springs(scene, *mesh),
         kept(materials.is_mixed()
                ? std::make_unique<mechanics::MaterialMap>(kept_scene(scene), *mesh)
                : nullptr),
         triangulation(*mesh, communicator)
     {
+      if (!springs.empty())
+        mechanics::check_rigid_motions(*mesh, prescribed, &springs);
       space       = std::make_unique<fem::Space>(triangulation, degree, edges.get());
       constraints = mechanics::make_constraints(prescribed, *space);
       fixed       = std::make_unique<fem::FixedUnknowns>(*space, constraints);
       log.progress("assembling " + std::to_string(space->n_dofs()) + " unknowns");
       mechanics::NodalLoads loads
         = mechanics::assemble_loads(scene, kept ? *kept : materials, *space);
-      forces      = std::move(loads.forces);
+      forces = std::move(loads.forces);
+      mechanics::add_rigid_forces(scene.supports, prescribed, forces);
       load_totals = std::move(loads.totals);
+      couplings   = std::make_unique<mechanics::RigidCouplings>(prescribed.rigid, *space);
       if (!materials.is_linear())
         {
           nonlinear_solver = std::make_unique<NonlinearSolver>(
@@ -102,16 +108,52 @@ namespace tetradapt::solve
           return;
         }
       tangents = std::make_unique<mechanics::TangentField>(kept ? *kept : materials, *mesh);
-      solver   = std::make_unique<LinearSolver>(LinearModel{*space, *tangents, constraints},
-                                              scene.solver,
-                                              log);
+      solver   = std::make_unique<LinearSolver>(
+        LinearModel{*space, *tangents, constraints, couplings.get(), &springs}, scene.solver, log);
       if (materials.is_mixed())
         mixed_solver = std::make_unique<MixedSolver>(
           MixedModel{*space, materials, prescribed, *fixed, *solver}, scene.solver, log);
     }
 
+    /** The forces on the nodes of loads and, where it moves, of the ground under springs. */
+    NodalValues
+    applied_forces() const
+    {
+      if (!springs.have_moved_ground())
+        return forces;
+      const mesh::NodalField at_rest(mesh, degree, edges);
+      NodalValues            sum = mechanics::spring_forces(springs, at_rest).nodal;
+      for (std::size_t node = 0; node < sum.size(); ++node)
+        sum[node] += forces[node];
+      return sum;
+    }
+
+    /** int eps(u) : C : eps(u) and, with springs, what they have of their own: Energies of the
+     * body, the springs' after that. */
+    std::pair<Energies, double>
+    energies_of(const mesh::NodalField &u) const
+    {
+      return {compute_energies(u, materials, space->communicator()),
+              mechanics::spring_forces(springs, u).energy};
+    }
+
+    /** With springs an error relative to the energy of all says nothing of the body on soft ones:
+     * then the residual's tolerance counts. */
+    LinearStop
+    stop_of(const Stop &stop) const
+    {
+      return {stop.residual, stop.algebraic_error, springs.empty() ? stop.relative_error : 0., {}};
+    }
+
+    /** Whether nothing moves but what loads move. */
+    bool
+    is_driven_by_loads() const
+    {
+      return prescribed.is_homogeneous() && !springs.have_moved_ground();
+    }
+
     /** The unknowns with a value of @p free where they are free, if it is not null,
-     * and the prescribed ones times @p factor elsewhere. */
+     * and the prescribed ones times @p factor elsewhere. Collective. */
     Vector
     vector_of(const NodalValues *free, double factor) const
     {
@@ -124,6 +166,21 @@ namespace tetradapt::solve
               x.local_element(3 * node + c) = factor * prescribed.values[field_node][c];
             else if (free != nullptr)
               x.local_element(3 * node + c) = (*free)[field_node][c];
+          if (prescribed.fixed[field_node] == mechanics::PrescribedDisplacement::is_inclined)
+            {
+              dealii::Tensor<1, 3> value = factor * prescribed.values[field_node];
+              if (free != nullptr)
+                value += prescribed.free_part(field_node, (*free)[field_node]);
+              for (unsigned int c = 0; c < 3; ++c)
+                x.local_element(3 * node + c) = value[c];
+            }
+        }
+      if (!couplings->empty())
+        {
+          // Free motions of a start that has the prescribed ones.
+          couplings->add_prescribed(-factor, x);
+          couplings->project(x);
+          couplings->add_prescribed(factor, x);
         }
       return x;
     }
@@ -138,30 +195,32 @@ namespace tetradapt::solve
     core::Log                              log;
     std::shared_ptr<const mesh::EdgeTable> edges;
     mechanics::PrescribedDisplacement      prescribed;
+    mechanics::Springs                     springs;
     /** Mixed form only: the materials without what the pressure carries. */
-    std::unique_ptr<mechanics::MaterialMap> kept;
-    fem::Triangulation                      triangulation;
+    std::unique_ptr<mechanics::MaterialMap>  kept;
+    fem::Triangulation                       triangulation;
     std::unique_ptr<mechanics::TangentField> tangents; ///< of linear laws
-    std::unique_ptr<fem::Space>             space;
-    fem::Constraints                        constraints; ///< of the supports
-    std::unique_ptr<fem::FixedUnknowns>     fixed;       ///< by constraints
-    NodalValues                             forces;      ///< of the loads, on the nodes owned
-    std::vector<mechanics::LoadTotal>       load_totals;
+    std::unique_ptr<fem::Space>              space;
+    fem::Constraints                         constraints; ///< of the supports
+    std::unique_ptr<fem::FixedUnknowns>      fixed;       ///< by constraints
+    NodalValues                              forces;      ///< of the loads, on the nodes owned
+    std::vector<mechanics::LoadTotal>        load_totals;
     /** Of laws that are not linear, at the last solution; on the nodes owned. */
     NodalValues internal_forces;
     /** Of these: the resultants of the loads at the deformed positions. */
-    std::vector<mechanics::Resultant> deformed_loads;
-    std::unique_ptr<LinearSolver>           solver;           ///< of linear laws
-    std::unique_ptr<MixedSolver>            mixed_solver;     ///< mixed form only
-    std::unique_ptr<NonlinearSolver>        nonlinear_solver; ///< of laws that are not linear
+    std::vector<mechanics::Resultant>          deformed_loads;
+    std::unique_ptr<mechanics::RigidCouplings> couplings;
+    std::unique_ptr<LinearSolver>              solver;           ///< of linear laws
+    std::unique_ptr<MixedSolver>               mixed_solver;     ///< mixed form only
+    std::unique_ptr<NonlinearSolver>           nonlinear_solver; ///< of laws that are not linear
   };
 
   /** The part of solve() for laws that are not linear. */
   void
   StaticSystem::Data::solve_nonlinear(Vector &x, StaticSolution &solution)
   {
-    const NonlinearResult  result = nonlinear_solver->solve(x);
-    const mesh::NodalField *field = solution.displacement.get();
+    const NonlinearResult   result = nonlinear_solver->solve(x);
+    const mesh::NodalField *field  = solution.displacement.get();
     space->gather(x, solution.displacement->values);
     deformed_loads.clear();
     for (const auto &total : mechanics::assemble_loads(scene, materials, *space, field).totals)
@@ -171,8 +230,8 @@ namespace tetradapt::solve
     solution.energy        = prescribed.is_homogeneous()
                                ? 2. * (solution.external_work - result.stored_energy)
                                : 2. * result.stored_energy;
-    solution.norm.value      = std::sqrt(2. * std::max(0., result.stored_energy));
-    solution.norm.noise      = mechanics::EnergyNorm::rounding * solution.norm.value
+    solution.norm.value    = std::sqrt(2. * std::max(0., result.stored_energy));
+    solution.norm.noise    = mechanics::EnergyNorm::rounding * solution.norm.value
                           + algebraic_noise * result.algebraic_error;
     solution.algebraic_error         = result.algebraic_error;
     solution.iterations              = result.linear_iterations;
@@ -219,8 +278,9 @@ namespace tetradapt::solve
         data->solve_nonlinear(x, solution);
         return solution;
       }
-    LinearStop   linear_stop{stop.residual, stop.algebraic_error, stop.relative_error, {}};
-    const Vector right_hand_side = data->solver->right_hand_side(data->forces);
+    const bool   with_springs    = !data->springs.empty();
+    const Vector right_hand_side = data->solver->right_hand_side(data->applied_forces());
+    LinearStop   linear_stop     = data->stop_of(stop);
     LinearResult result;
     if (data->mixed_solver)
       {
@@ -233,7 +293,8 @@ namespace tetradapt::solve
       }
     else
       {
-        if (!data->prescribed.is_homogeneous())
+        // On soft springs the energy of the body is a small part of all.
+        if (!data->prescribed.is_homogeneous() || with_springs)
           linear_stop.energy = [&](const Vector &iterate) {
             space.gather(iterate, values);
             return compute_energies(*solution.displacement, data->materials, space.communicator())
@@ -248,16 +309,19 @@ namespace tetradapt::solve
     solution.load_magnitude          = free_magnitude(space, data->prescribed, right_hand_side);
     space.gather(x, values);
 
-    const Energies energies
-      = compute_energies(*solution.displacement, data->materials, space.communicator());
+    const auto [energies, spring_energy] = data->energies_of(*solution.displacement);
+    const double all_energy              = energies.energy + 2. * spring_energy;
+    if (with_springs)
+      solution.spring_energy = spring_energy;
     solution.external_work = work(space, data->forces, values);
     // In mixed form temperatures load the pressure's equation also, which that work leaves out.
     const bool thermal = data->materials.has_thermal_strain();
-    const bool by_work
-      = data->prescribed.is_homogeneous() && !(thermal && data->materials.is_mixed());
-    solution.energy = by_work ? 2. * solution.external_work - energies.energy : energies.energy;
-    solution.strain_energy = by_work && !thermal ? 0.5 * solution.energy : energies.stored;
-    solution.norm = norm_of(energies, thermal ? 2. * energies.stored : solution.energy, result);
+    const bool by_work = data->is_driven_by_loads() && !(thermal && data->materials.is_mixed());
+    solution.energy    = by_work ? 2. * solution.external_work - all_energy : all_energy;
+    solution.strain_energy
+      = by_work && !thermal && !with_springs ? 0.5 * solution.energy : energies.stored;
+    solution.norm
+      = norm_of(energies, thermal || with_springs ? 2. * energies.stored : solution.energy, result);
     return solution;
   }
 
@@ -268,10 +332,7 @@ namespace tetradapt::solve
     auto         field = std::make_shared<mesh::NodalField>(data->mesh, data->degree, data->edges);
     Vector       x     = data->vector_of(nullptr, 0.);
     const Vector b     = data->vector_of(&forces, 0.);
-    data->solver->solve(b,
-                        {stop.residual, stop.algebraic_error, stop.relative_error, {}},
-                        "The weights of the goal",
-                        x);
+    data->solver->solve(b, data->stop_of(stop), "The weights of the goal", x);
     data->space->gather(x, field->values);
     return field;
   }
@@ -318,6 +379,7 @@ namespace tetradapt::solve
                                 *data->space,
                                 data->materials,
                                 data->prescribed,
+                                data->springs,
                                 data->forces,
                                 data->nonlinear_solver ? &data->internal_forces : nullptr,
                                 resultants},
@@ -329,5 +391,11 @@ namespace tetradapt::solve
   StaticSystem::prescribed() const
   {
     return data->prescribed;
+  }
+
+  bool
+  StaticSystem::is_driven_by_loads() const
+  {
+    return data->is_driven_by_loads();
   }
 } // namespace tetradapt::solve

@@ -25,7 +25,7 @@ namespace
   {
     scene::Scene              scene;
     scene::MaterialParameters material;
-    material.name          = "material";
+    material.name                       = "material";
     material.constants["Young modulus"] = 1000.;
     material.constants["Poisson ratio"] = 0.25;
     scene.materials.push_back(material);

@@ -150,13 +150,13 @@ namespace
   {
     scene::Scene              scene;
     scene::MaterialParameters material;
-    material.name           = "m";
-    material.constants["Young modulus"]  = 10.;
-    material.constants["Poisson ratio"]  = 0.3;
-    scene.materials         = {material};
-    scene.mesh.source       = scene::MeshSource::bricks;
-    scene.mesh.upper_corner = Point<3>(2, 1, 1);
-    scene.mesh.cells        = {{{4, 2, 2}}};
+    material.name                       = "m";
+    material.constants["Young modulus"] = 10.;
+    material.constants["Poisson ratio"] = 0.3;
+    scene.materials                     = {material};
+    scene.mesh.source                   = scene::MeshSource::bricks;
+    scene.mesh.upper_corner             = Point<3>(2, 1, 1);
+    scene.mesh.cells                    = {{{4, 2, 2}}};
     scene::SupportParameters support;
     support.name            = "wall";
     support.selector.groups = {"x-min"};

@@ -28,7 +28,7 @@ scene::MaterialParameters
 material(const std::string &name, const double young_modulus)
 {
   scene::MaterialParameters result;
-  result.name          = name;
+  result.name                       = name;
   result.constants["Young modulus"] = young_modulus;
   result.constants["Poisson ratio"] = 0.25;
   return result;

@@ -32,11 +32,11 @@ namespace
     scene.materials.resize(2);
     for (int i = 0; i < 2; ++i)
       {
-        scene.materials[i].name              = i == 0 ? "soft" : "hard";
-        scene.materials[i].regions           = {i};
-        scene.materials[i].constants["Young modulus"]     = i == 0 ? 1000. : 50000.;
-        scene.materials[i].constants["Poisson ratio"]     = i == 0 ? 0.25 : 0.4;
-        scene.materials[i].thermal_expansion = 0.01;
+        scene.materials[i].name                       = i == 0 ? "soft" : "hard";
+        scene.materials[i].regions                    = {i};
+        scene.materials[i].constants["Young modulus"] = i == 0 ? 1000. : 50000.;
+        scene.materials[i].constants["Poisson ratio"] = i == 0 ? 0.25 : 0.4;
+        scene.materials[i].thermal_expansion          = 0.01;
       }
     if (!temperature.empty())
       {

@@ -98,8 +98,8 @@ namespace
               const mesh::EdgeTable    &edges)
   {
     using dealii::types::global_dof_index;
-    const fem::Space     space(triangulation, degree, &edges);
-    const unsigned int   n_nodes = space.n_nodes_per_cell();
+    const fem::Space   space(triangulation, degree, &edges);
+    const unsigned int n_nodes = space.n_nodes_per_cell();
 
     // Every rank numbers all nodes.
     std::vector<global_dof_index> numbers(space.n_field_nodes(),

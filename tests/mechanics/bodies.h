@@ -61,7 +61,7 @@ namespace bodies
   material(const std::string &name, double young_modulus, double poisson_ratio)
   {
     scene::MaterialParameters m;
-    m.name          = name;
+    m.name                       = name;
     m.constants["Young modulus"] = young_modulus;
     m.constants["Poisson ratio"] = poisson_ratio;
     return m;

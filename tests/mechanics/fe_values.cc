@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
 // The operators against the same form integrated with deal.II's FEValues on the space's
-// DoFHandler, and against its MatrixFree: a curved body in two materials, on several ranks.
+// DoFHandler, and against its MatrixFree: a curved body in two materials, on several ranks. Then
+// with faces that slide, whose constraints are deal.II's AffineConstraints.
 
 #include "tetradapt/fem/triangulation.h"
 #include "tetradapt/mechanics/matrix_free_stiffness.h"
@@ -154,6 +155,82 @@ namespace
       error.local_element(i) -= b.local_element(i);
     return error.linfty_norm() / b.linfty_norm();
   }
+  /** Supports that slide along a curved wall and along cuts; where they meet, a node is held in
+   * two directions, and in three where a component is fixed also. */
+  scene::Scene
+  sliding_scene()
+  {
+    scene::Scene scene;
+    scene.materials            = {material("soft", 10., 0.4), material("hard", 1000., 0.2)};
+    scene.materials[1].regions = {1};
+    scene.supports             = {support("wall", "x^2 + z^2 > 8.5"),
+                                  support("cuts", "x < 1e-9 || abs(x - z*tan(1.5)) < 1e-9*z"),
+                                  support("side", "y < 1e-9", "y", {{"0", "0.02*x", "0"}})};
+    for (unsigned int s = 0; s < 2; ++s)
+      scene.supports[s].type = scene::SupportType::sliding;
+    scene.supports[0].normal_displacement = "0.01 + 0.1*y";
+    return scene;
+  }
+
+  /** The residual of a displacement that fulfils the constraints is that of FEValues in the
+   * directions that are free, and zero in the others. */
+  void
+  check_sliding(const std::shared_ptr<mesh::TetMesh> &body,
+                const mesh::EdgeTable                &edges,
+                const unsigned int                    degree)
+  {
+    const scene::Scene scene    = sliding_scene();
+    mesh::TetMesh      selected = *body;
+    select(selected, scene);
+    const MaterialMap        materials(scene, selected);
+    const TangentField       tangents(materials, selected);
+    const fem::Triangulation triangulation(selected, MPI_COMM_WORLD);
+    const fem::Space         space(triangulation, degree, &edges);
+    const auto               prescribed
+      = prescribe(scene.supports, selected, degree == 1 ? nullptr : &edges, scene.mesh);
+    const fem::Constraints   constraints = make_constraints(prescribed, space);
+    const fem::FixedUnknowns fixed(space, constraints);
+    Vector                   u(space.vector_layout()), product(u);
+    for (const auto i : u.locally_owned_elements())
+      u[i] = std::sin(1. + i);
+    fixed.distribute(u);
+    Vector distributed(u);
+    constraints.distribute(distributed);
+    const std::string name = "sliding, degree " + std::to_string(degree);
+    check_small(name + ", AffineConstraints", difference(distributed, u), 1e-13);
+
+    Vector       expected(space.vector_layout());
+    const Vector forces = by_fe_values(space, materials, u);
+    for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
+      {
+        Tensor<1, 3> force;
+        for (unsigned int c = 0; c < 3; ++c)
+          force[c] = -forces.local_element(3 * node + c);
+        force = fixed.free_part(node, force);
+        for (unsigned int c = 0; c < 3; ++c)
+          expected.local_element(3 * node + c) = force[c];
+      }
+    const std::vector<Tensor<1, 3>> no_forces(space.n_field_nodes());
+    const LinearSystem              system = assemble(space, tangents, fixed);
+    system.matrix.vmult(product, u);
+    Vector residual = right_hand_side(system, space, fixed, no_forces);
+    residual -= product;
+    check_small(name + ", assembled", difference(residual, expected), 1e-13);
+    if (degree == 1)
+      return;
+    const MatrixFreeStiffness<double> matrix_free(space, tangents, fixed);
+    matrix_free.vmult(product, u);
+    residual = matrix_free.right_hand_side(no_forces);
+    residual -= product;
+    check_small(name + ", kernel", difference(residual, expected), 1e-13);
+    system.matrix.vmult(residual, distributed);
+    check_small(name + ", kernel and assembled", difference(product, residual), 1e-13);
+    const unsigned int n_inclined
+      = dealii::Utilities::MPI::sum(static_cast<unsigned int>(fixed.inclined().size()),
+                                    MPI_COMM_WORLD);
+    if (is_first_rank)
+      check(name + ", some nodes are inclined", n_inclined > 20);
+  }
 } // namespace
 
 int
@@ -204,4 +281,6 @@ main(int argc, char *argv[])
                       difference(y, by_matrix_free(space, materials.linear_law(1), x)),
                       1e-13);
       }
+  for (const unsigned int degree : {1u, 2u})
+    check_sliding(bent_body(), edges, degree);
 }

@@ -26,15 +26,15 @@ make_scene()
 {
   scene::Scene scene;
   scene.materials.resize(2);
-  scene.materials[0].name              = "soft";
-  scene.materials[0].regions           = {3};
-  scene.materials[0].constants["Young modulus"]     = 2.;
-  scene.materials[0].constants["Poisson ratio"]     = 0.25; // lambda = mu = 0.8
-  scene.materials[0].thermal_expansion = 0.1;
-  scene.materials[1].name              = "stiff";
-  scene.materials[1].regions           = {8};
-  scene.materials[1].constants["Young modulus"]     = 30.;
-  scene.materials[1].constants["Poisson ratio"]     = 0.; // lambda = 0, mu = 15
+  scene.materials[0].name                       = "soft";
+  scene.materials[0].regions                    = {3};
+  scene.materials[0].constants["Young modulus"] = 2.;
+  scene.materials[0].constants["Poisson ratio"] = 0.25; // lambda = mu = 0.8
+  scene.materials[0].thermal_expansion          = 0.1;
+  scene.materials[1].name                       = "stiff";
+  scene.materials[1].regions                    = {8};
+  scene.materials[1].constants["Young modulus"] = 30.;
+  scene.materials[1].constants["Poisson ratio"] = 0.; // lambda = 0, mu = 15
   return scene;
 }
 

@@ -39,7 +39,8 @@ namespace
     const core::VectorExpression u(scene.exact_solution.displacement, "u"),
       f(scene.loads[0].value, "f"), t(scene.loads[1].value, "t"),
       support(scene.supports[0].displacement, "support");
-    const double E = scene.materials[0].constants.at("Young modulus"), nu = scene.materials[0].constants.at("Poisson ratio");
+    const double E      = scene.materials[0].constants.at("Young modulus"),
+                 nu     = scene.materials[0].constants.at("Poisson ratio");
     const double lambda = E * nu / ((1. + nu) * (1. - 2. * nu)), mu = E / (2. * (1. + nu));
 
     const auto gradient = [&](const Point<3> &p) {

@@ -98,7 +98,8 @@ namespace
             && scene.materials[1].name == "bone");
     check("regions", scene.materials[0].regions == std::vector<int>{3, 4});
     check("included block goes on",
-          scene.materials[1].density == 0.25 && scene.materials[1].constants.at("Young modulus") == 17e3);
+          scene.materials[1].density == 0.25
+            && scene.materials[1].constants.at("Young modulus") == 17e3);
     check("default stays", scene.materials[1].constants.at("Poisson ratio") == 0.3);
     check("files count from the including file",
           scene.mesh.files

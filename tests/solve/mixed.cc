@@ -156,7 +156,7 @@ namespace
     print_refusal("  blown up", [&] { solve_scene(scene, body, 2); });
     // A little compressible: p = -lambda tr eps.
     scene.materials[0].constants["Poisson ratio"] = 0.499;
-    const double lambda              = 2. * 0.499 / (1.499 * 0.002);
+    const double lambda                           = 2. * 0.499 / (1.499 * 0.002);
     check("  pressure with nu = 0.499",
           pressure_error(scene, *solve_scene(scene, body, 2).displacement, 0, -0.3 * lambda)
             < 1e-6 * lambda);

@@ -168,8 +168,9 @@ namespace
                            support("back", "z < 1e-9", "z")};
     const auto   result = solved(scene, box(Point<3>(2, 1, 1), {{4, 2, 2}}), way.degree);
     const auto  &forces = result.forces;
-    const double nu     = scene.materials[0].constants["Poisson ratio"]; // changes little, but something
-    const double slack  = nu > 0. ? 5e-3 : 1e-9;
+    const double nu
+      = scene.materials[0].constants["Poisson ratio"]; // changes little, but something
+    const double slack = nu > 0. ? 5e-3 : 1e-9;
     // Force -E k int y = -E k/2; moments int z sigma = -E k/4 about y, -int y sigma about z.
     const Vector3 force({-20. * k / 2., 0., 0.}), moment({0., -20. * k / 4., 20. * k / 3.});
     expect("right end", forces.supports[1].resultant.force, force, force.norm(), slack);

@@ -122,7 +122,8 @@ namespace tetradapt::adapt
     std::optional<double> reference_error_estimate;
     /** estimate / energy_error, where the error is measured. */
     std::optional<double> effectivity;
-    double                strain_energy           = 0.;
+    double                strain_energy = 0.;
+    std::optional<double> spring_energy; ///< see solve::StaticSolution
     double                max_displacement        = 0.;
     unsigned int          iterations              = 0;
     unsigned int          iterations_to_tolerance = 0; ///< see solve::StaticSolution

@@ -3,6 +3,7 @@
 #define tetradapt_estimate_given_loads_h
 
 #include "tetradapt/mechanics/material_map.h"
+#include "tetradapt/mechanics/springs.h"
 #include "tetradapt/mechanics/surface_loads.h"
 #include "tetradapt/mechanics/volume_density.h"
 
@@ -14,7 +15,8 @@ namespace tetradapt::estimate
   /**
    * What a scene's loads and supports say about the stress that they cause:
    * sigma n = t on the boundary, where a component of the displacement is free, and
-   * div sigma + f = 0 inside. Loads are evaluated where they are asked for, so that
+   * div sigma + f = 0 inside. Springs, where a displacement is given, count as the tractions that
+   * they have at it. Loads are evaluated where they are asked for, so that
    * estimators can take them at points of their own.
    */
   class GivenLoads
@@ -26,8 +28,15 @@ namespace tetradapt::estimate
                const mechanics::MaterialMap &materials,
                const mesh::TetMesh          &mesh);
 
+    /** The same with the tractions of the springs at @p displacement, on its mesh. Keeps a
+     * reference to it. */
+    GivenLoads(const scene::Scene           &scene,
+               const mechanics::MaterialMap &materials,
+               const mesh::NodalField       &displacement);
+
     /** Bit c is set if a support holds displacement component c on boundary face
-     * @p face. */
+     * @p face. A face that is coupled rigidly has all, and one that slides those that other
+     * supports hold. */
     unsigned char
     held_components(unsigned int face) const
     {
@@ -35,22 +44,36 @@ namespace tetradapt::estimate
     }
 
     /** Bit c is set if component c of the traction on boundary face @p face is
-     * known: not held by a support, and no nodal force there, which is no traction. */
+     * known: not held by a support, and no nodal force there, which is no traction. None where the
+     * face slides: see known_directions(). */
     unsigned char
     known_components(unsigned int face) const
     {
       return patches[mesh.faces[face].patch].known;
     }
 
-    /** Whether a traction or pressure acts on boundary face @p face. */
+    /** Whether boundary face @p face slides along itself, so that the traction is known in its
+     * tangential directions. */
+    bool
+    slides(unsigned int face) const
+    {
+      return patches[mesh.faces[face].patch].slides;
+    }
+
+    /** Orthonormal directions in which the traction is known on a face that slides.
+     * @param normal of the face or of the true surface. */
+    std::vector<Tensor<1, 3>>
+    known_directions(unsigned int face, const Tensor<1, 3> &normal) const;
+
+    /** Whether a traction, pressure or spring acts on boundary face @p face. */
     bool
     has_traction(unsigned int face) const
     {
-      return !surface_loads.on_face(face).empty();
+      return !surface_loads.on_face(face).empty() || (springs && springs->act_on(face));
     }
 
-    /** Sum of the tractions and pressures on boundary face @p face, force per area, as they
-     * load the discrete problem; zero on a free face. Valid for the known components.
+    /** Sum of the tractions, pressures and springs on boundary face @p face, force per area, as
+     * they load the discrete problem; zero on a free face. Valid for the known components.
      * @param point on the face; nx, ny, nz are those of the true surface over it.
      * @param normal of the face, outward, of length one, for pressures. */
     Tensor<1, 3>
@@ -112,12 +135,22 @@ namespace tetradapt::estimate
     struct PatchConditions
     {
       unsigned char held = 0, known = 7;
+      bool          slides = false, has_nodal_forces = false;
     };
+
+    /** The displacement that springs act at, at a point of a face or over it. */
+    Tensor<1, 3>
+    displacement_at(unsigned int face, const Point<3> &point) const;
+    Tensor<1, 3>
+    displacement_at(unsigned int face, const std::array<double, 3> &b) const;
 
     const mesh::TetMesh                      &mesh;
     const mechanics::MaterialMap             &materials;
     mechanics::SurfaceLoads                   surface_loads;
-    std::vector<PatchConditions>              patches;                    ///< as TetMesh::patches
+    const mesh::NodalField                   *displacement = nullptr;
+    std::unique_ptr<mechanics::Springs>       springs;    ///< null: none, or not asked for
+    std::vector<std::array<unsigned int, 6>>  face_nodes; ///< where there are springs
+    std::vector<PatchConditions>              patches;    ///< as TetMesh::patches
     mutable mechanics::SurfaceLoads::Samples  face_samples, most_on_face; ///< work space
     mutable mechanics::VolumeDensity::Samples cell_samples, most_in_cell;
   };
@@ -132,6 +165,13 @@ namespace tetradapt::estimate
         for (const auto &point : face_samples)
           visit(point.b, point.weight, point.value);
       }
+    if (!springs)
+      return;
+    const double area       = mesh::face_area_vector(mesh, mesh.faces[face]).norm();
+    const auto [begin, end] = springs->on_face(face);
+    for (auto spring = begin; spring != end; ++spring)
+      for (const auto &point : spring->points)
+        visit(point.b, point.weight / area, point.traction(displacement_at(face, point.b)));
   }
 
   template <typename Visitor>

@@ -125,11 +125,15 @@ namespace tetradapt::estimate
    * displacement has beyond its interpolation of degree p, which is zero for
    * displacements of that degree. On an edge its value in the middle (p = 1) or the
    * odd part of its values at the thirds (p = 2), on a face its value in the centre.
-   * One entry a function.
+   * One entry a function. Where faces slide, the same of the normal displacement, along the normals
+   * of the place as those of a node there: where these vary, the spaces of the two degrees differ
+   * by as much as the wall differs from the mesh.
+   * @throws core::InputError for a rigid support.
    */
   mechanics::PrescribedDisplacement
   prescribe_surplus(const std::vector<scene::SupportParameters> &supports,
-                    const HierarchicalSurplus                   &surplus);
+                    const HierarchicalSurplus                   &surplus,
+                    const scene::MeshParameters                 &surface = {});
 } // namespace tetradapt::estimate
 
 #endif

@@ -4,6 +4,10 @@
 
 #include "tetradapt/fem/space.h"
 
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <array>
+
 DEAL_II_NAMESPACE_OPEN
 template <typename Number>
 class AffineConstraints;
@@ -24,20 +28,52 @@ namespace tetradapt::fem
   Constraints
   restrict_to(const Space &space, const Space &finer, const Constraints &constraints);
 
+  /** A node that is held in directions which are no components, as where it slides along an
+   * inclined plane: held u = value, with a projector on one or two directions. */
+  struct InclinedNode
+  {
+    unsigned int                  node;  ///< local
+    dealii::SymmetricTensor<2, 3> held;  ///< orthogonal projector on the directions that are held
+    dealii::Tensor<1, 3>          value; ///< of the displacement in these; held value = value
+  };
+
+  /** Builds what is held into a node's own block on the diagonal, row by row:
+   * (1 - Q) block (1 - Q) + s Q with Q = @p held and a third of the block's trace for s. Times a
+   * vector in the held directions it gives s times that. */
+  template <typename Number>
+  void
+  build_in(const dealii::SymmetricTensor<2, 3> &held, std::array<Number, 9> &block)
+  {
+    dealii::Tensor<2, 3> K, free = dealii::Tensor<2, 3>(dealii::unit_symmetric_tensor<3>() - held);
+    for (unsigned int i = 0; i < 9; ++i)
+      K[i / 3][i % 3] = block[i];
+    const dealii::Tensor<2, 3> result
+      = free * K * free + trace(K) / 3. * dealii::Tensor<2, 3>(held);
+    for (unsigned int i = 0; i < 9; ++i)
+      block[i] = static_cast<Number>(result[i / 3][i % 3]);
+  }
+
   /**
-   * The unknowns that Constraints fix at a value, in the local numbers of a Space: what kernels
+   * What Constraints prescribe at the nodes, in the local numbers of a Space: what kernels
    * take, which work node by node. Local unknown 3 i + c is component c of local node i.
+   *
+   * A node either has components that are fixed at values, or it is inclined: then kernels
+   * work with projectors Q = InclinedNode::held, (1 - Q) K (1 - Q) in the place of rows and
+   * columns that are left out. All vectors stay Cartesian.
    */
   class FixedUnknowns
   {
   public:
+    /** Of components(): the node is one of inclined(), and none of its components is fixed. */
+    static constexpr unsigned char is_inclined = 8;
+
     /**
      * Keeps no reference.
-     * @throws dealii::ExcNotImplemented if an unknown depends on others.
+     * @throws dealii::ExcNotImplemented if an unknown depends on those of other nodes.
      */
     FixedUnknowns(const Space &space, const Constraints &constraints);
 
-    /** Bit c is set: component c of the node is fixed. */
+    /** Bit c is set: component c of the node is fixed. Or is_inclined. */
     unsigned char
     components(const unsigned int local_node) const
     {
@@ -51,7 +87,19 @@ namespace tetradapt::fem
     /** The value of a fixed unknown. */
     double
     value(const unsigned int local_node, const unsigned int c) const;
-    /** All of them, ascending: those of owned nodes first. */
+    /** All nodes that are held in other directions, ascending: owned ones first. */
+    const std::vector<InclinedNode> &
+    inclined() const
+    {
+      return inclined_nodes;
+    }
+    /** The inclined node @p local_node, which must be one. */
+    const InclinedNode &
+    inclined_at(unsigned int local_node) const;
+    /** What is left of @p vector at a node where nothing that is prescribed may change. */
+    dealii::Tensor<1, 3>
+    free_part(unsigned int local_node, const dealii::Tensor<1, 3> &vector) const;
+    /** All fixed unknowns, ascending: those of owned nodes first. */
     const std::vector<unsigned int> &
     unknowns() const
     {
@@ -63,7 +111,7 @@ namespace tetradapt::fem
     {
       return fixed_values;
     }
-    /** Gives the owned unknowns among them their values. */
+    /** Gives the owned unknowns what is prescribed. */
     void
     distribute(Vector &vector) const;
     /** Whether all values on this rank are zero. */
@@ -74,6 +122,7 @@ namespace tetradapt::fem
     std::vector<unsigned char> bits; ///< one a local node
     std::vector<unsigned int>  numbers;
     std::vector<double>        fixed_values;
+    std::vector<InclinedNode>  inclined_nodes;
   };
 } // namespace tetradapt::fem
 

@@ -95,8 +95,8 @@ namespace tetradapt::laws
 
     /**
      * The response to a deformation.
-     * @param G the displacement gradient du/dX; the deformation gradient is F = I + G. (Not F itself:
-     *        that has lost the digits of small strains.) Laws for small strains use the symmetric
+     * @param G the displacement gradient du/dX; the deformation gradient is F = I + G. (Not F
+     * itself: that has lost the digits of small strains.) Laws for small strains use the symmetric
      *        part of G, and P is Cauchy's stress then.
      * @param history of the point; may be without arrays if n_history() is 0.
      * @param with_tangent whether Response::tangent is wanted.

@@ -39,7 +39,7 @@ namespace tetradapt::laws
     {
       SymmetricTensor<2, 3> twice_E; ///< C - I = G + G^T + G^T G
       SymmetricTensor<2, 3> inverse_C;
-      double                J = 1.;
+      double                J         = 1.;
       double                J_minus_1 = 0.;
       /** tr(C - I) - 2 (J - 1), of second order in G. */
       double shape = 0.;

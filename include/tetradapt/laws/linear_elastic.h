@@ -41,9 +41,9 @@ namespace tetradapt::laws
 
   private:
     ModuliAtRest moduli;
-    double inverse_lambda; ///< 1 / lambda, infinite for nu = 0
-    double lambda;         ///< first Lame parameter; -2/3 mu for nu = 0.5
-    double mu;             ///< shear modulus
+    double       inverse_lambda; ///< 1 / lambda, infinite for nu = 0
+    double       lambda;         ///< first Lame parameter; -2/3 mu for nu = 0.5
+    double       mu;             ///< shear modulus
   };
 } // namespace tetradapt::laws
 

@@ -43,7 +43,7 @@ namespace tetradapt::mechanics
     }
 
   private:
-    const LinearLaw      &law;
+    const LinearLaw            &law;
     std::optional<PressureForm> form;
   };
 } // namespace tetradapt::mechanics

@@ -3,10 +3,13 @@
 #define tetradapt_mechanics_matrix_free_stiffness_h
 
 #include "tetradapt/mechanics/linear_operator.h"
+#include "tetradapt/mechanics/spring_matrix.h"
 #include "tetradapt/mechanics/supports.h"
 #include "tetradapt/mechanics/tangent_field.h"
 
 #include <deal.II/base/aligned_vector.h>
+
+#include <optional>
 
 namespace tetradapt::mechanics
 {
@@ -16,8 +19,9 @@ namespace tetradapt::mechanics
    * The stiffness int B^T C B of degree 2 with the supports built in, without its entries:
    * a product integrates over the cells again, many cells at a time in the lanes of vector
    * registers, from nine numbers of geometry and the tangent. Four quadrature points, which
-   * is exact for constant tangents. With full tangents the stiffness is int dv : dP/dF : du. Equal to assemble()'s matrix to rounding: constrained
-   * rows and columns hold only their diagonal entry.
+   * is exact for constant tangents. With full tangents the stiffness is int dv : dP/dF : du. Equal
+   * to assemble()'s matrix to rounding: constrained rows and columns hold only their diagonal
+   * entry.
    *
    * On several ranks every rank works on all cells that touch its nodes, so that a product
    * fetches ghost values but sends no results.
@@ -32,12 +36,14 @@ namespace tetradapt::mechanics
 
     /**
      * @param scale multiplies the matrix; single precision needs entries near one.
+     * @param springs on the nodes of @p space are added; null: none.
      * Keeps a reference to @p space, whose degree must be 2. No communication.
      */
-    MatrixFreeStiffness(const fem::Space         &space,
-                        const TangentField       &tangents,
-                        const fem::FixedUnknowns &fixed,
-                        double                    scale = 1.);
+    MatrixFreeStiffness(const fem::Space           &space,
+                        const TangentField         &tangents,
+                        const fem::FixedUnknowns   &fixed,
+                        double                      scale   = 1.,
+                        const SpringMatrix<double> *springs = nullptr);
 
     void
     vmult(VectorOf<Number> &destination, const VectorOf<Number> &source) const override;
@@ -70,16 +76,17 @@ namespace tetradapt::mechanics
     void
     add_forces(unsigned int begin, unsigned int end, const Number *x, Number *y) const;
 
-    const fem::Space               &space;
-    fem::FixedUnknowns              fixed;
-    unsigned int                    n_batches     = 0;
-    unsigned int                    n_own_batches = 0; ///< these, first, have no ghosts
-    TangentForm                     form; ///< how tangents are stored
-    dealii::AlignedVector<unsigned> nodes;
-    std::vector<unsigned char>      at_end; ///< of batches: whether they have the last node
-    dealii::AlignedVector<Number>   gradients, tangent_values;
-    std::vector<Block>              diagonal;
-    mutable VectorOf<Number>        masked; ///< made where a source has values at fixed unknowns
+    const fem::Space                   &space;
+    fem::FixedUnknowns                  fixed;
+    unsigned int                        n_batches     = 0;
+    unsigned int                        n_own_batches = 0; ///< these, first, have no ghosts
+    TangentForm                         form;              ///< how tangents are stored
+    dealii::AlignedVector<unsigned>     nodes;
+    std::vector<unsigned char>          at_end; ///< of batches: whether they have the last node
+    dealii::AlignedVector<Number>       gradients, tangent_values;
+    std::vector<Block>                  diagonal;
+    std::optional<SpringMatrix<Number>> springs; ///< empty: none
+    mutable VectorOf<Number> masked; ///< made where a source has values at fixed unknowns
   };
 } // namespace tetradapt::mechanics
 

@@ -9,7 +9,8 @@
 
 namespace tetradapt::mechanics
 {
-  /** What the supports do to the body. */
+  /** What the supports do to the body. The forces and moments that the scene puts on reference
+   * points are loads, and not in it. */
   struct Reactions
   {
     std::vector<Resultant>     supports; ///< one a support, in the order of the scene
@@ -34,7 +35,9 @@ namespace tetradapt::mechanics
    *
    * A reaction belongs to the support that prescribes the unknown. Where several do, it is
    * divided in proportion to the area of the faces that each has at the node; equally, if none
-   * has any.
+   * has any. Where a node slides, each support has what is along its own directions. Nodes that
+   * are coupled to a reference point count whole: their sum is along its prescribed components, as
+   * far as the equations are solved.
    *
    * @param forces F, one a field node, complete on the nodes that this rank owns.
    * @param internal_forces int P : grad N of laws that are not linear, likewise: then moments are

@@ -4,6 +4,7 @@
 
 #include "tetradapt/fem/fixed_unknowns.h"
 #include "tetradapt/mechanics/block_matrix.h"
+#include "tetradapt/mechanics/spring_matrix.h"
 #include "tetradapt/mechanics/tangent_field.h"
 
 namespace tetradapt::mechanics
@@ -29,9 +30,13 @@ namespace tetradapt::mechanics
    * degree 1, with the mean of the cell's tangents, 4 for degree 2. Exact for constant
    * tangents; and the matrix of degree 1 is always that of degree 2 in the subspace. No
    * communication: each rank assembles the complete rows of its nodes.
+   * @param springs on the nodes of @p space are added; null: none.
    */
   LinearSystem
-  assemble(const fem::Space &space, const TangentField &tangents, const fem::FixedUnknowns &fixed);
+  assemble(const fem::Space           &space,
+           const TangentField         &tangents,
+           const fem::FixedUnknowns   &fixed,
+           const SpringMatrix<double> *springs = nullptr);
 
   /** The right-hand side of an assembled system for forces on the nodes of the field:
    * these less those of the prescribed displacement where unknowns are free, else the

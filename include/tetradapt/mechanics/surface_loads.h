@@ -29,6 +29,14 @@ namespace tetradapt::mechanics
     /** Keeps a reference to the mesh, whose patches name the loads.
      * @throws core::InputError if an expression does not compile. */
     SurfaceLoads(const scene::Scene &scene, const mesh::TetMesh &mesh);
+
+    /** The same for other densities on faces than the scene's loads: the patches name them
+     * "section/name", and messages "section/name/parameter". */
+    SurfaceLoads(const std::vector<scene::LoadParameters> &densities,
+                 const std::string                        &section,
+                 const std::string                        &parameter,
+                 const scene::MeshParameters              &mesh_parameters,
+                 const mesh::TetMesh                      &mesh);
     ~SurfaceLoads();
 
     /** Numbers, among the scene's loads, of the tractions and pressures on boundary face

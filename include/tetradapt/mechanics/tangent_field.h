@@ -43,8 +43,8 @@ namespace tetradapt::mechanics
      * @param n_points is 1 or 4.
      */
     TangentField(std::vector<laws::Tangent> tangents,
-                 std::vector<unsigned int>      first,
-                 unsigned int                   n_points);
+                 std::vector<unsigned int>  first,
+                 unsigned int               n_points);
 
     /** Whether full() is to be taken instead of at(). */
     bool
@@ -80,11 +80,11 @@ namespace tetradapt::mechanics
     }
 
   private:
-    std::vector<VoigtMatrix>       matrices;
+    std::vector<VoigtMatrix>   matrices;
     std::vector<laws::Tangent> full_tangents;
-    std::vector<unsigned int>      which;
-    unsigned int                   n_points;
-    bool                           isotropic;
+    std::vector<unsigned int>  which;
+    unsigned int               n_points;
+    bool                       isotropic;
   };
 } // namespace tetradapt::mechanics
 

@@ -85,7 +85,7 @@ namespace tetradapt::scene
     std::vector<int>         regions;       ///< region ids; both lists empty: everywhere else
     std::vector<std::string> region_groups; ///< names of regions
     std::string              law = "linear elastic"; ///< name in laws::law_catalogue()
-    laws::Constants      constants;              ///< of the law; see laws::make_law()
+    laws::Constants          constants;              ///< of the law; see laws::make_law()
     double                   density           = 0.; ///< mass per volume
     double                   thermal_expansion = 0.; ///< strain per degree
 
@@ -102,14 +102,62 @@ namespace tetradapt::scene
     check() const;
   };
 
-  /** Prescribed displacement components on a part of the boundary, at a point or on a line. */
+  /** What a support does to its faces. */
+  enum class SupportType
+  {
+    fixed,   ///< prescribes components of the displacement
+    sliding, ///< prescribes the displacement along the normal only
+    rigid,   ///< couples all of them rigidly to one reference point
+    spring   ///< an elastic foundation
+  };
+
+  /** How faces that are coupled to a reference point move: u = t + R x (x - x_ref). */
+  struct RigidParameters
+  {
+    using Motion = std::array<std::optional<double>, 3>; ///< nothing: free
+
+    std::optional<dealii::Point<3>> reference_point; ///< none: the centroid of the faces
+    Motion                          translation;     ///< t
+    Motion                          rotation;        ///< R, in radians
+    /** What acts at the reference point, constants; on free components only. */
+    std::array<std::string, 3> force{{"0", "0", "0"}}, moment{{"0", "0", "0"}};
+
+    bool
+    operator==(const RigidParameters &other) const
+    {
+      return reference_point == other.reference_point && translation == other.translation
+             && rotation == other.rotation && force == other.force && moment == other.moment;
+    }
+  };
+
+  /** Which displacements the springs of a support resist. */
+  enum class SpringDirection
+  {
+    normal, ///< those along the normal
+    all
+  };
+
+  /** Of a support of type SupportType::spring: its traction on the body is
+   * -k (u - u0), or -k ((u - u0) . n) n, with u0 its SupportParameters::displacement. */
+  struct SpringParameters
+  {
+    std::string     stiffness = "0"; ///< k, force per area and displacement; in x, y, z
+    SpringDirection direction = SpringDirection::normal;
+  };
+
+  /** What holds or moves a part of the boundary, a point or a line. */
   struct SupportParameters
   {
-    std::string                name;
-    Selector                   selector;
+    std::string name;
+    SupportType type = SupportType::fixed;
+    Selector    selector;
+    /** Those that are prescribed; none by springs. */
     std::array<bool, 3>        components{{true, true, true}};
     std::array<std::string, 3> displacement{{"0", "0", "0"}}; ///< in x, y, z, t
-    PlaceParameters            place; ///< if it is set, no faces are selected
+    PlaceParameters            place;                     ///< if it is set, no faces are selected
+    std::string                normal_displacement = "0"; ///< of a sliding one, outward, in x, y, z
+    RigidParameters            rigid;                     ///< of a rigid one
+    SpringParameters           spring;
 
     void
     declare(dealii::ParameterHandler &prm) const;

@@ -9,6 +9,10 @@ namespace tetradapt::scene
   /** Whether a support of @p scene prescribes a displacement other than zero. */
   bool
   moves_supports(const Scene &scene);
+
+  /** Whether a force or a moment acts at the reference point of a rigid support of @p scene. */
+  bool
+  loads_supports(const Scene &scene);
 } // namespace tetradapt::scene
 
 #endif

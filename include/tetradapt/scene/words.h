@@ -26,6 +26,8 @@ namespace tetradapt::scene
   const Words<MeshParameters::Projection>        &words(MeshParameters::Projection);
   const Words<SolverParameters::Stopping>        &words(SolverParameters::Stopping);
   const Words<SolverParameters::Multigrid>       &words(SolverParameters::Multigrid);
+  const Words<SupportType>                       &words(SupportType);
+  const Words<SpringDirection>                   &words(SpringDirection);
   const Words<LoadType>                          &words(LoadType);
   const Words<Distribution>                      &words(Distribution);
   const Words<SolverParameters::Type>            &words(SolverParameters::Type);

@@ -5,6 +5,7 @@
 #include "tetradapt/fem/space.h"
 #include "tetradapt/mechanics/extent.h"
 #include "tetradapt/mechanics/resultant.h"
+#include "tetradapt/mechanics/springs.h"
 #include "tetradapt/mechanics/supports.h"
 
 #include <string>
@@ -15,10 +16,21 @@ namespace tetradapt::solve
   /** What one support or one load does to the body. */
   struct ActingForce
   {
-    std::string          name; ///< in the scene
-    std::string          kind; ///< "support", or the load's type as the scene calls it
+    std::string name; ///< in the scene
+    /** "support", "spring", "reference point", or the load's type as the scene calls it */
+    std::string          kind;
     mechanics::Resultant resultant;
     mechanics::Extent    extent;
+  };
+
+  /** The reference point of faces that are coupled rigidly. */
+  struct ReferencePoint
+  {
+    std::string            name; ///< of the support
+    dealii::Point<3>       point;
+    mechanics::RigidMotion motion{};      ///< its translation, then its rotation in radians
+    mechanics::Resultant   reaction;      ///< of what is prescribed, about the point
+    dealii::Tensor<1, 3>   force, moment; ///< that the scene puts on it
   };
 
   /**
@@ -27,7 +39,9 @@ namespace tetradapt::solve
    */
   struct Equilibrium
   {
-    std::vector<ActingForce> supports, loads; ///< in the order of the scene
+    /** In the order of the scene; loads are followed by those on reference points. */
+    std::vector<ActingForce>    supports, loads;
+    std::vector<ReferencePoint> reference_points; ///< of rigid supports
     /** The sum of all of them; moments about the origin, as theirs. */
     mechanics::Resultant imbalance;
     /** The sum of the lengths of all nodal forces, those of the loads, thermal strain included,
@@ -60,6 +74,7 @@ namespace tetradapt::solve
     const fem::Space                        &space;
     const mechanics::MaterialMap            &materials;
     const mechanics::PrescribedDisplacement &prescribed;
+    const mechanics::Springs                &springs;
     /** Of all loads, one a field node, complete on the nodes that this rank owns. */
     const std::vector<dealii::Tensor<1, 3>> &forces;
     /** Of laws that are not linear; see mechanics::compute_reactions(). */

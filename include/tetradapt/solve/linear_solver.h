@@ -3,6 +3,7 @@
 #define tetradapt_solve_linear_solver_h
 
 #include "tetradapt/core/log.h"
+#include "tetradapt/mechanics/rigid_coupling.h"
 #include "tetradapt/mechanics/stiffness.h"
 #include "tetradapt/scene/study_parameters.h"
 #include "tetradapt/solve/conjugate_gradients.h"
@@ -10,15 +11,21 @@
 #include "tetradapt/solve/preconditioners.h"
 
 #include <functional>
+#include <optional>
 
 namespace tetradapt::solve
 {
+  class RigidDirectSolver;
+
   /** What a matrix and its coarser levels are built from. */
   struct LinearModel
   {
     const fem::Space              &space;
     const mechanics::TangentField &tangents;
     const fem::Constraints        &constraints; ///< of the supports, closed
+    /** What these do not have; null: nothing. */
+    const mechanics::RigidCouplings *couplings = nullptr;
+    const mechanics::Springs        *springs   = nullptr; ///< to be added; null: none
   };
 
   /** When a solution is good enough. */
@@ -55,10 +62,11 @@ namespace tetradapt::solve
     LinearSolver(const LinearModel             &model,
                  const scene::SolverParameters &parameters,
                  const core::Log               &log);
+    ~LinearSolver();
 
     /** The right-hand side for forces on the nodes of the field: less those of the
      * prescribed displacement where unknowns are free; elsewhere a diagonal entry of the
-     * matrix times the prescribed value. No communication. */
+     * matrix times the prescribed value. Collective if there are couplings. */
     Vector
     right_hand_side(const std::vector<dealii::Tensor<1, 3>> &forces) const;
 
@@ -86,11 +94,27 @@ namespace tetradapt::solve
     void
     precondition(Vector &destination, const Vector &source) const;
 
-    /** The matrix with the supports built in. */
+    /** The matrix with the supports built in. With couplings, for displacements that these
+     * allow only. */
     const mechanics::LinearOperator<double> &
     matrix() const;
 
   private:
+    /** Without couplings. */
+    const mechanics::LinearOperator<double> &
+    nodal_matrix() const;
+    /** solve() for what is added to the prescribed motions of couplings. */
+    LinearResult
+    solve_nodal(const Vector      &right_hand_side,
+                const LinearStop  &stop,
+                const std::string &load,
+                Vector            &x) const;
+    void
+    factorise(const mechanics::BlockMatrix &matrix) const;
+    bool
+    is_factorised() const;
+    void
+    solve_directly(const Vector &right_hand_side, Vector &x) const;
     template <typename Number>
     std::unique_ptr<ApproximateInverse<Number>>
     multigrid(double scale) const;
@@ -100,6 +124,12 @@ namespace tetradapt::solve
     precondition_in_double() const;
     double
     largest_diagonal() const;
+    /** Null without springs. */
+    const mechanics::SpringMatrix<double> *
+    spring_matrix() const
+    {
+      return springs ? &*springs : nullptr;
+    }
     double
     load_norm(const Vector &right_hand_side, const std::string &load) const;
     LinearResult
@@ -123,21 +153,26 @@ namespace tetradapt::solve
     void
     factorise_instead(unsigned int iterations) const;
 
-    LinearModel                                             model;
-    const fem::Space                                       &space;
-    fem::FixedUnknowns                                      fixed;
+    LinearModel        model;
+    const fem::Space  &space;
+    fem::FixedUnknowns fixed;
+    /** Null where nothing is free to move with a reference point. */
+    const mechanics::RigidCouplings                        *couplings;
     const scene::SolverParameters                          &parameters;
     const core::Log                                        &log;
     std::string                                             description;
     std::unique_ptr<mechanics::LinearSystem>                assembled;
     std::unique_ptr<mechanics::MatrixFreeStiffness<double>> matrix_free;
+    std::optional<mechanics::SpringMatrix<double>>          springs;
     FlatNodes                                               flat; ///< of degree 2
+    std::unique_ptr<mechanics::RigidlyCoupledOperator>      coupled_matrix;
     /** Made again in double precision where single does not do. */
     mutable std::unique_ptr<fem::Space>     coarse_space; ///< of p-multigrid
     mutable std::unique_ptr<Preconditioner> preconditioner;
     mutable bool                            is_single = false;
     /** From the beginning, or made when conjugate gradients failed. */
-    mutable std::unique_ptr<DirectSolver> direct;
+    mutable std::unique_ptr<DirectSolver>      direct;
+    mutable std::unique_ptr<RigidDirectSolver> rigid_direct; ///< in its place with couplings
   };
 } // namespace tetradapt::solve
 

@@ -97,8 +97,12 @@ namespace tetradapt::solve
 
   private:
     State
-    search(const Vector &step, double slope, const State &before, Vector &x, Vector &r, Ending &failure)
-      const;
+    search(const Vector &step,
+           double        slope,
+           const State  &before,
+           Vector       &x,
+           Vector       &r,
+           Ending       &failure) const;
   };
 } // namespace tetradapt::solve
 

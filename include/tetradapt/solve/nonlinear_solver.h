@@ -78,12 +78,12 @@ namespace tetradapt::solve
     std::string
     why(const Newton::Result &result) const;
 
-    NonlinearModel                model;
+    NonlinearModel                 model;
     const scene::SolverParameters &parameters;
-    const core::Log              &log;
-    mechanics::NonlinearStiffness stiffness;
-    mutable mechanics::Deformed   deformed; ///< of the last residual
-    double                        last_error = 0., last_residual = 0.; ///< before the last step
+    const core::Log               &log;
+    mechanics::NonlinearStiffness  stiffness;
+    mutable mechanics::Deformed    deformed;                            ///< of the last residual
+    double                         last_error = 0., last_residual = 0.; ///< before the last step
     std::unique_ptr<mechanics::TangentField> tangents;
   };
 } // namespace tetradapt::solve

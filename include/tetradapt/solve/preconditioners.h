@@ -3,6 +3,7 @@
 #define tetradapt_solve_preconditioners_h
 
 #include "tetradapt/mechanics/matrix_free_stiffness.h"
+#include "tetradapt/mechanics/rigid_coupling.h"
 #include "tetradapt/mechanics/stiffness.h"
 #include "tetradapt/solve/aggregation.h"
 #include "tetradapt/solve/flat_nodes.h"
@@ -39,14 +40,17 @@ namespace tetradapt::solve
    * One cycle of smoothed-aggregation AMG (Vanek, Mandel and Brezina, Computing 56, 1996)
    * with the six rigid motions as near null space, for a matrix of degree 1 times
    * @p scale, which single precision needs near one. Copies what it needs of the matrix.
+   * @param couplings of the nodes of the space, if there are any, each of which becomes an
+   *        aggregate with its own motions: the finest level leaves them to the next one.
    * @tparam Number is float or double. Collective.
    */
   template <typename Number>
   std::unique_ptr<ApproximateInverse<Number>>
-  make_amg(const mechanics::BlockMatrix &matrix,
-           const fem::Space             &space,
-           const fem::FixedUnknowns     &fixed,
-           double                        scale);
+  make_amg(const mechanics::BlockMatrix    &matrix,
+           const fem::Space                &space,
+           const fem::FixedUnknowns        &fixed,
+           double                           scale,
+           const mechanics::RigidCouplings *couplings = nullptr);
 
   /** The same for any matrix with three unknowns a node: its rows, the rigid motions at the
    * owned nodes, and the layout of its columns, which is that of the vectors that it is
@@ -73,6 +77,7 @@ namespace tetradapt::solve
    * 3x3 block Jacobi there, and degree 1 solved by one cycle of @p coarse_solver. Where cells
    * are flat or long, the smoother has larger blocks and FlatCorrection corrects also.
    * @param flat is null where they are not.
+   * @param couplings of the fine space, if there are any: left to @p coarse_solver.
    * @tparam Number is float or double. Keeps references to both spaces.
    */
   template <typename Number>
@@ -82,7 +87,8 @@ namespace tetradapt::solve
                    const fem::Space                                       &coarse_space,
                    const fem::FixedUnknowns                               &fixed,
                    std::unique_ptr<ApproximateInverse<Number>>             coarse_solver,
-                   std::unique_ptr<FlatCorrection<Number>>                 flat);
+                   std::unique_ptr<FlatCorrection<Number>>                 flat,
+                   const mechanics::RigidCouplings                        *couplings = nullptr);
 } // namespace tetradapt::solve
 
 #endif

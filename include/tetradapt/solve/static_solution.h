@@ -12,6 +12,8 @@
 
 #include <mpi.h>
 
+#include <optional>
+
 namespace tetradapt::solve
 {
   /** A static equilibrium on one mesh. Every MPI rank holds all of it. What is said of energies
@@ -22,17 +24,21 @@ namespace tetradapt::solve
   {
     std::shared_ptr<mesh::NodalField> displacement;
     unsigned long                     n_dofs = 0; ///< 3 x nodes, supports included
-    /** a(u_h,u_h) = int eps:C:eps, twice the strain energy without thermal strain. Where
-     * all prescribed displacements are zero it is computed as 2 F(u_h) - a(u_h,u_h): the
-     * same for an exactly solved system, and with an algebraic error delta (energy
-     * norm) less by delta^2, while F and a alone err by terms of first order. So E minus
-     * it is |||u - u_h|||^2 for any iterate u_h, and it rises on a better mesh only. */
+    /** a(u_h,u_h) = int eps:C:eps, twice the strain energy without thermal strain, and twice
+     * spring_energy. Where all prescribed displacements, and those of the ground, are zero it is
+     * computed as 2 F(u_h) - a(u_h,u_h): the same for an exactly solved system, and with an
+     * algebraic error delta (energy norm) less by delta^2, while F and a alone err by terms of
+     * first order. So E minus it is |||u - u_h|||^2 for any iterate u_h, and it rises on a better
+     * mesh only. */
     double energy = 0.;
-    /** 1/2 int (eps - eps_th):C:(eps - eps_th), where eps_th is the thermal strain. Without
-     * temperatures and with fixed supports half of energy, and as exact as it is. */
+    /** 1/2 int (eps - eps_th):C:(eps - eps_th), where eps_th is the thermal strain: of the body
+     * alone. Without temperatures and springs and with fixed supports half of energy, and as exact
+     * as it is. */
     double strain_energy = 0.;
+    /** 1/2 int (u - u0) . K (u - u0) over the springs (mechanics::Springs); empty: none. */
+    std::optional<double> spring_energy;
     /** What relative errors are of: the root of energy, but of twice strain_energy where
-     * temperatures act. */
+     * temperatures or springs act. */
     mechanics::EnergyNorm norm;
     /** F(u_h): tractions, body forces and thermal loads on the displacement. */
     double external_work = 0.;

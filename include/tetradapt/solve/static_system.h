@@ -82,6 +82,10 @@ namespace tetradapt::solve
     const mechanics::PrescribedDisplacement &
     prescribed() const;
 
+    /** Whether every prescribed displacement and that of the ground under springs is zero. */
+    bool
+    is_driven_by_loads() const;
+
   private:
     /** @throws core::InputError if a law is not linear. */
     void

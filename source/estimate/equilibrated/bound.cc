@@ -6,6 +6,8 @@
 
 #include "tetradapt/compare/parallel.h"
 #include "tetradapt/core/failure.h"
+#include "tetradapt/mechanics/springs.h"
+#include "tetradapt/mechanics/supports.h"
 
 #include <deal.II/base/numbers.h>
 
@@ -46,6 +48,29 @@ namespace tetradapt::estimate
         }
       return sum;
     }
+    /** The root of int (u - v) . K (u - v) over the springs, @p u of degree 1 and @p v of degree 2
+     * on the same mesh. */
+    double
+    spring_distance(const mesh::NodalField &u, const mesh::NodalField &v, const scene::Scene &scene)
+    {
+      const mechanics::Springs springs(scene, u.mesh());
+      if (springs.empty())
+        return 0.;
+      const auto nodes  = mechanics::boundary_face_nodes(v.mesh(), &v.edges());
+      double     square = 0., N[6];
+      for (const mechanics::Springs::Face &face : springs.faces())
+        for (const mechanics::Springs::Sample &point : face.points)
+          {
+            mechanics::face_shape_values(v.degree(), point.b, N);
+            Tensor<1, 3> difference;
+            for (unsigned int i = 0; i < 6; ++i)
+              difference -= N[i] * v.values[nodes[face.face][i]];
+            for (unsigned int i = 0; i < 3; ++i)
+              difference += point.b[i] * u.values[nodes[face.face][i]];
+            square += point.weight * (difference * (point.stiffness * difference));
+          }
+      return std::sqrt(std::max(square, 0.));
+    }
   } // namespace
 
   EquilibratedBound
@@ -75,6 +100,8 @@ namespace tetradapt::estimate
     double sum = 0.;
     for (const double e : result.cell_energy)
       sum += e * e;
+    if (&u_h != &galerkin)
+      supports = std::hypot(supports, spring_distance(u_h, galerkin, scene));
     result.global      = std::sqrt(loads[0]) + std::sqrt(sum + supports * supports);
     result.oscillation = result.global - std::sqrt(sum);
     return result;

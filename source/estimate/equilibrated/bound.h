@@ -40,6 +40,12 @@ namespace tetradapt::estimate
    * beyond quadratic polynomials in a cell), load_oscillation() is added; for
    * prescribed displacements that u_h has only at nodes, see support_oscillation();
    * with w such a displacement, |||u - u_h|||^2 <= ||s - stress_h||^2 + |||w|||^2.
+   *
+   * On springs s n is the traction -K (v - u0) of @p galerkin, v. Then int (s - stress_h) : eps(w)
+   * = int stress(u - u_h) : eps(w) + int (u - v) . K w for every w, and with w = u - u_h
+   *   |||u - u_h|||^2 + |u - u_h|_K^2 <= ||s - stress_h||^2 + |v - u_h|_K^2,
+   * where |w|_K^2 = int w . K w over the springs.
+   *
    * Integrals of loads are those of the solution, by quadrature. The error of an
    * iterative solver is not included: the class Equilibrated adds it.
    *

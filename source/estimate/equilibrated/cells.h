@@ -114,10 +114,10 @@ namespace tetradapt::estimate
     struct Region
     {
       const laws::LinearLaw *law;
-      double                            compliance[6][6]; ///< xx, yy, zz, yz, zx, xy
-      double                            largest_compliance;
-      Tensor<1, 3>                      constant_force;
-      bool                              thermal;
+      double                 compliance[6][6]; ///< xx, yy, zz, yz, zx, xy
+      double                 largest_compliance;
+      Tensor<1, 3>           constant_force;
+      bool                   thermal;
 
       std::vector<const mechanics::VolumeDensity *> variable_forces;
     };

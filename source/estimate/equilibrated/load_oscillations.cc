@@ -5,6 +5,7 @@
 #include "oscillation.h"
 
 #include "tetradapt/compare/parallel.h"
+#include "tetradapt/core/expression.h"
 #include "tetradapt/core/failure.h"
 #include "tetradapt/core/surface_expression.h"
 
@@ -27,6 +28,17 @@ namespace tetradapt::estimate
       return load.type != scene::LoadType::nodal_force && load.type != scene::LoadType::point_force
              && !core::SurfaceExpression(load.value, "Loads/" + load.name + "/Value").is_constant();
     }
+
+    /** The same of a support; tractions of even springs are of the degree of the solution. */
+    bool
+    has_varying_springs(const scene::SupportParameters &support)
+    {
+      const std::string path = "Supports/" + support.name;
+      return support.type == scene::SupportType::spring
+             && !(core::Expression(support.spring.stiffness, path + "/Stiffness").is_constant()
+                  && core::VectorExpression(support.displacement, path + "/Displacement")
+                       .is_constant());
+    }
   } // namespace
 
   std::vector<double>
@@ -36,14 +48,15 @@ namespace tetradapt::estimate
                     MPI_Comm                      communicator)
   {
     std::vector<double> result;
-    if (std::none_of(scene.loads.begin(), scene.loads.end(), varies))
+    if (std::none_of(scene.loads.begin(), scene.loads.end(), varies)
+        && std::none_of(scene.supports.begin(), scene.supports.end(), has_varying_springs))
       return result;
     const mesh::TetMesh &mesh = u_h.mesh();
     result.assign(mesh.n_cells(), 0.);
     core::together(communicator, [&] {
       const CellStates            states(u_h, materials);
       const CellFaces             faces(mesh);
-      const std::vector<FaceLoad> loads = face_loads(scene, mesh);
+      const std::vector<FaceLoad> loads = face_loads(scene, u_h);
       const compare::Slice        own   = compare::own_slice(mesh.n_cells(), communicator);
       CellState                   state;
       for (unsigned int cell = own.begin; cell < own.end; ++cell)

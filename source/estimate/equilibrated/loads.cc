@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "loads.h"
 
+#include "tetradapt/mechanics/springs.h"
+#include "tetradapt/mechanics/supports.h"
 #include "tetradapt/mechanics/surface_loads.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -82,11 +84,41 @@ namespace tetradapt::estimate
       // Rounding is no oscillation.
       load.oscillation += square > 1e-26 * all ? std::sqrt(size * square) : 0.;
     }
+    void
+    add_springs(const scene::Scene     &scene,
+                const mesh::NodalField &displacement,
+                std::vector<FaceLoad>  &loads)
+    {
+      const mesh::TetMesh     &mesh = displacement.mesh();
+      const mechanics::Springs springs(scene, mesh);
+      if (springs.empty())
+        return;
+      const unsigned int n = displacement.degree() == 1 ? 3 : 6;
+      const auto         nodes
+        = mechanics::boundary_face_nodes(mesh, n == 3 ? nullptr : &displacement.edges());
+      mechanics::SurfaceLoads::Samples samples;
+      double                           N[6];
+      for (const mechanics::Springs::Face &face : springs.faces())
+        {
+          const double area = mesh::face_area_vector(mesh, mesh.faces[face.face]).norm();
+          samples.clear();
+          for (const mechanics::Springs::Sample &point : face.points)
+            {
+              mechanics::face_shape_values(displacement.degree(), point.b, N);
+              Tensor<1, 3> u;
+              for (unsigned int i = 0; i < n; ++i)
+                u += N[i] * displacement.values[nodes[face.face][i]];
+              samples.push_back({point.b, point.weight / area, point.traction(u)});
+            }
+          integrate(samples, area, loads[face.face]);
+        }
+    }
   } // namespace
 
   std::vector<FaceLoad>
-  face_loads(const scene::Scene &scene, const mesh::TetMesh &mesh)
+  face_loads(const scene::Scene &scene, const mesh::NodalField &displacement)
   {
+    const mesh::TetMesh                 &mesh = displacement.mesh();
     std::map<std::string, unsigned char> supports;
     for (const auto &support : scene.supports)
       for (unsigned int c = 0; c < 3; ++c)
@@ -113,6 +145,7 @@ namespace tetradapt::estimate
             integrate(samples, mesh::face_area_vector(mesh, mesh.faces[f]).norm(), loads[f]);
           }
       }
+    add_springs(scene, displacement, loads);
     return loads;
   }
 } // namespace tetradapt::estimate

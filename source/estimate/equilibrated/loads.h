@@ -2,7 +2,7 @@
 #ifndef tetradapt_estimate_equilibrated_loads_h
 #define tetradapt_estimate_equilibrated_loads_h
 
-#include "tetradapt/mesh/tet_mesh.h"
+#include "tetradapt/mesh/nodal_field.h"
 #include "tetradapt/scene/scene.h"
 
 namespace tetradapt::estimate
@@ -21,10 +21,11 @@ namespace tetradapt::estimate
     double oscillation = 0.;
   };
 
-  /** The loads and supports of all listed faces of @p mesh, from the names on their
-   * patches; integrated as in mechanics::assemble_loads(). */
+  /** The loads and supports of all listed faces of a mesh, from the names on their
+   * patches; integrated as in mechanics::assemble_loads(). Springs count as the traction that they
+   * have at @p displacement, integrated as in the matrix. */
   std::vector<FaceLoad>
-  face_loads(const scene::Scene &scene, const mesh::TetMesh &mesh);
+  face_loads(const scene::Scene &scene, const mesh::NodalField &displacement);
 } // namespace tetradapt::estimate
 
 #endif

@@ -155,12 +155,12 @@ namespace tetradapt::estimate
 
     /** Square of the energy norm of the lifting in one cell. */
     double
-    cell_energy(const mesh::NodalField           &u_h,
-                const mesh::EdgeTable            &edges,
-                const CellFaces                  &faces,
-                const Lifting                    &lifting,
-                const laws::LinearLaw &law,
-                const unsigned int                cell)
+    cell_energy(const mesh::NodalField &u_h,
+                const mesh::EdgeTable  &edges,
+                const CellFaces        &faces,
+                const Lifting          &lifting,
+                const laws::LinearLaw  &law,
+                const unsigned int      cell)
     {
       const mesh::TetMesh          &mesh = u_h.mesh();
       const auto                    g    = mesh::barycentric_gradients(mesh, cell);
@@ -240,7 +240,8 @@ namespace tetradapt::estimate
               touched                  = touched || (which != none && lifting.on_face[which] != 0);
             }
           if (touched)
-            sum += cell_energy(u_h, edges, faces, lifting, materials.linear_law(mesh.regions[cell]), cell);
+            sum += cell_energy(
+              u_h, edges, faces, lifting, materials.linear_law(mesh.regions[cell]), cell);
         }
     return std::sqrt(sum);
   }

@@ -18,7 +18,7 @@ namespace tetradapt::estimate
                                          const mechanics::MaterialMap &materials,
                                          MPI_Comm                      communicator,
                                          const double                  near)
-    : states(u_h, materials), faces(u_h.mesh()), loads(face_loads(scene, u_h.mesh())),
+    : states(u_h, materials), faces(u_h.mesh()), loads(face_loads(scene, galerkin)),
       edges(u_h.degree() == 2 ? u_h.shared_edges()
                               : std::make_shared<mesh::EdgeTable>(mesh::build_edges(u_h.mesh()))),
       mesh(u_h.mesh())

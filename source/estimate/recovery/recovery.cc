@@ -165,7 +165,7 @@ namespace tetradapt::estimate
     const CellStress            stress(u_h, materials);
     std::unique_ptr<GivenLoads> loads;
     if (scene != nullptr)
-      loads = std::make_unique<GivenLoads>(*scene, materials, u_h.mesh());
+      loads = std::make_unique<GivenLoads>(*scene, materials, u_h);
     const RecoveredStress         recovered(u_h, stress, loads.get(), communicator);
     RecoveryEstimate              result;
     const compare::TetQuadrature &rule    = compare::tet_quadrature(u_h.degree() == 1 ? 2 : 5);

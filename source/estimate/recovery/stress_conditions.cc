@@ -43,6 +43,22 @@ namespace tetradapt::estimate
         add_right(face, q, row, tractions[q][c]);
     }
 
+    /** d . sigma n = d . t */
+    void
+    add_traction_along(Face               &face,
+                       const Tensor<1, 3> &d,
+                       const Tensor<1, 3> &normal,
+                       const Tensor<1, 3> (&tractions)[3])
+    {
+      double row[6] = {0., 0., 0., 0., 0., 0.};
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = 0; j < 3; ++j)
+          row[stress_index[i][j]] += d[i] * normal[j];
+      add_matrix(face, row);
+      for (unsigned int q = 0; q < face.n_points; ++q)
+        add_right(face, q, row, d * tractions[q]);
+    }
+
     /** 2 mu (t_1 t_2) : C^-1 (sigma - sigma_h) = 0 */
     void
     add_tangential_strain(Face                  &face,
@@ -98,6 +114,9 @@ namespace tetradapt::estimate
           for (unsigned int c = 0; c < 3; ++c)
             if ((known >> c & 1) != 0)
               add_traction(face, c, at.normal, tractions);
+          if (loads.slides(f))
+            for (const Tensor<1, 3> &d : loads.known_directions(f, at.normal))
+              add_traction_along(face, d, at.normal, tractions);
           faces.push_back(face);
         }
     }
@@ -133,14 +152,17 @@ namespace tetradapt::estimate
                             * Tensor<1, 3>(mesh.points[v[i]]);
 
       const unsigned char known = loads.known_components(f);
-      if (known != 0 && loads.surface().is_projected(f))
+      if ((known != 0 || loads.slides(f)) && loads.surface().is_projected(f))
         return add_curved_face(f, face, loads, faces);
-      if (known != 0)
+      if (known != 0 || loads.slides(f))
         {
           Tensor<1, 3> tractions[3];
           if (loads.has_traction(f))
             for (unsigned int q = 0; q < face.n_points; ++q)
               tractions[q] = loads.traction(f, face.points[q], normal);
+          if (loads.slides(f))
+            for (const Tensor<1, 3> &d : loads.known_directions(f, normal))
+              add_traction_along(face, d, normal, tractions);
           for (unsigned int c = 0; c < 3; ++c)
             if ((known >> c & 1) != 0)
               add_traction(face, c, normal, tractions);

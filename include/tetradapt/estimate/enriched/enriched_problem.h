@@ -51,14 +51,17 @@ namespace tetradapt::estimate
 
     struct Correction
     {
-      Values       values;            ///< e, zero at supports
-      double       norm         = 0.; ///< energy norm of e
-      double       error        = 0.; ///< estimated energy norm of what is missing in e
+      Values       values;       ///< e, zero at supports
+      double       norm    = 0.; ///< energy norm of e
+      double       error   = 0.; ///< estimated energy norm of what is missing in e
+      double       missing = 0.; ///< what to add to the square of the norm of e, relative to it
       unsigned int n_iterations = 0;
     };
 
     /** Solves a(e, phi_i) = forces_i for all functions, until the error of e is
-     * estimated to be @p tolerance times its norm. Collective.
+     * estimated to be @p tolerance times its norm; with Solver/Stopping = residual until the
+     * residual is so small that what is left does not show in estimates: the preconditioner
+     * depends on the number of ranks. Collective.
      * @throws core::NumericalError if it does not converge. */
     Correction
     solve(const Values &forces, double tolerance) const;
@@ -70,6 +73,8 @@ namespace tetradapt::estimate
     precondition(const Values &residual, Values &result) const;
 
     const solve::StaticSolution      &solution;
+    scene::SolverParameters::Stopping stopping;
+    mechanics::Springs                springs;
     EnrichedSpace                     enriched_space;
     mechanics::PrescribedDisplacement prescribed;     ///< of the surplus
     Values                            loads;          ///< F(phi_i)

@@ -4,10 +4,13 @@
 
 #include "tetradapt/estimate/hierarchical_surplus.h"
 #include "tetradapt/mechanics/material_map.h"
+#include "tetradapt/mechanics/spring_matrix.h"
 
 #include <deal.II/lac/vector.h>
 
 #include <mpi.h>
+
+#include <optional>
 
 namespace tetradapt::estimate
 {
@@ -26,10 +29,12 @@ namespace tetradapt::estimate
   public:
     using Values = dealii::Vector<double>;
 
-    /** For the space of @p field. Reads the tangents at rest of @p materials. */
+    /** For the space of @p field. Reads the tangents at rest of @p materials.
+     * @param springs on its mesh, to be kept; null: none. */
     EnrichedSpace(const mesh::NodalField       &field,
                   const mechanics::MaterialMap &materials,
-                  MPI_Comm                      communicator);
+                  MPI_Comm                      communicator,
+                  const mechanics::Springs     *springs = nullptr);
     ~EnrichedSpace();
 
     const HierarchicalSurplus &
@@ -64,26 +69,49 @@ namespace tetradapt::estimate
     Values
     embed(const std::vector<Tensor<1, 3>> &nodal_values) const;
 
-    /** forces_i = a(x, phi_i) for all functions, whether supported or not. Collective. */
+    /** forces_i = a(x, phi_i) for all functions, whether supported or not, springs included.
+     * Collective. */
     void
     multiply(const Values &x, Values &forces) const;
 
-    /** a_K(x, y), the energy product on every cell. Collective. */
+    /** a_K(x, y), the energy product of the body on every cell. Collective. */
     std::vector<double>
     cell_products(const Values &x, const Values &y) const;
 
-    /** a(psi, psi) of every function of the surplus: 3x3 blocks of components, row by
-     * row. Collective. */
+    /** Adds the products of the springs, int x . K y, to those of the cells that have them. */
+    void
+    add_spring_products(const Values &x, const Values &y, std::vector<double> &products) const;
+
+    /** The forces int phi_i . K u0 of the ground under the springs. */
+    Values
+    ground_forces() const;
+
+    /** The matrix of the springs; null: none. */
+    const mechanics::SpringMatrix<double> *
+    spring_matrix() const
+    {
+      return springs_matrix ? &*springs_matrix : nullptr;
+    }
+
+    /** a(psi, psi) of every function of the surplus, springs included: 3x3 blocks of components,
+     * row by row. Collective. */
     std::vector<double>
     surplus_diagonal() const;
 
   private:
     struct Batches;
 
-    MPI_Comm                 mpi_communicator;
-    HierarchicalSurplus      hierarchical_surplus;
-    unsigned int             n_field_nodes;
-    std::unique_ptr<Batches> batches; ///< of the cells of this rank's slice
+    /** The numbers of the functions on a boundary face, and their values there. */
+    mechanics::FaceFunctions
+    face_functions() const;
+
+    const mechanics::Springs                      *springs; ///< null: none
+    MPI_Comm                                       mpi_communicator;
+    HierarchicalSurplus                            hierarchical_surplus;
+    unsigned int                                   n_field_nodes;
+    std::unique_ptr<Batches>                       batches; ///< of the cells of this rank's slice
+    std::vector<std::array<unsigned int, 6>>       face_nodes; ///< where there are springs
+    std::optional<mechanics::SpringMatrix<double>> springs_matrix;
   };
 } // namespace tetradapt::estimate
 
