@@ -14,7 +14,10 @@ namespace tetradapt::mechanics
     {
       const bool one = tangents.points_per_cell() == 1;
       if (tangents.is_full())
-        return one ? TangentForm::full_per_cell : TangentForm::full_per_point;
+        {
+          AssertThrow(!one, dealii::ExcNotImplemented()); // laws have one at each point
+          return TangentForm::full_per_point;
+        }
       return tangents.is_isotropic() ? TangentForm::isotropic
              : one                   ? TangentForm::one_per_cell
                                      : TangentForm::four_per_cell;

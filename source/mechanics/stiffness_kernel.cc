@@ -114,16 +114,6 @@ namespace tetradapt::mechanics
     };
 
     template <typename Number>
-    struct Stress<Number, TangentForm::full_per_cell>
-    {
-      static TETRADAPT_INLINE void
-      compute(const Number *tangent, unsigned int, const Number *G, Number *rows)
-      {
-        full_stress(tangent, G, rows);
-      }
-    };
-
-    template <typename Number>
     struct Stress<Number, TangentForm::full_per_point>
     {
       static TETRADAPT_INLINE void
@@ -352,12 +342,10 @@ namespace tetradapt::mechanics
     TETRADAPT_KERNELS(double, isotropic)
     TETRADAPT_KERNELS(double, one_per_cell)
     TETRADAPT_KERNELS(double, four_per_cell)
-    TETRADAPT_KERNELS(double, full_per_cell)
     TETRADAPT_KERNELS(double, full_per_point)
     TETRADAPT_KERNELS(float, isotropic)
     TETRADAPT_KERNELS(float, one_per_cell)
     TETRADAPT_KERNELS(float, four_per_cell)
-    TETRADAPT_KERNELS(float, full_per_cell)
     TETRADAPT_KERNELS(float, full_per_point)
   } // namespace
 
@@ -375,8 +363,6 @@ namespace tetradapt::mechanics
       apply_##Number##_one_per_cell(b, begin, end, x, y);                                          \
     else if (b.form == TangentForm::four_per_cell)                                                 \
       apply_##Number##_four_per_cell(b, begin, end, x, y);                                         \
-    else if (b.form == TangentForm::full_per_cell)                                                 \
-      apply_##Number##_full_per_cell(b, begin, end, x, y);                                         \
     else                                                                                           \
       apply_##Number##_full_per_point(b, begin, end, x, y);                                        \
   }                                                                                                \
@@ -392,8 +378,6 @@ namespace tetradapt::mechanics
       blocks_##Number##_one_per_cell(b, begin, end, to);                                           \
     else if (b.form == TangentForm::four_per_cell)                                                 \
       blocks_##Number##_four_per_cell(b, begin, end, to);                                          \
-    else if (b.form == TangentForm::full_per_cell)                                                 \
-      blocks_##Number##_full_per_cell(b, begin, end, to);                                          \
     else                                                                                           \
       blocks_##Number##_full_per_point(b, begin, end, to);                                         \
   }

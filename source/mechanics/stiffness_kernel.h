@@ -20,8 +20,7 @@ namespace tetradapt::mechanics
     isotropic,     ///< lambda, mu of the cell
     one_per_cell,  ///< upper triangle of the 6 x 6 Voigt matrix, 21 numbers
     four_per_cell, ///< the same at each quadrature point, 84 numbers
-    full_per_cell, ///< upper triangle of the 9 x 9 matrix dP/dF, 45 numbers
-    full_per_point ///< the same at each quadrature point, 180 numbers
+    full_per_point ///< upper triangle of the 9 x 9 matrix dP/dF at each point, 180 numbers
   };
 
   constexpr unsigned int
@@ -35,8 +34,6 @@ namespace tetradapt::mechanics
         return 21;
       case TangentForm::four_per_cell:
         return 84;
-      case TangentForm::full_per_cell:
-        return 45;
       default:
         return 180;
       }
