@@ -97,7 +97,7 @@ namespace
     scene.materials.resize(2);
     for (unsigned int i = 0; i < 2; ++i)
       {
-        scene.materials[i].name          = i == 0 ? "beam" : "tip";
+        scene.materials[i].name                       = i == 0 ? "beam" : "tip";
         scene.materials[i].constants["Young modulus"] = i == 0 ? 1000. : 1000. * contrast;
         scene.materials[i].constants["Poisson ratio"] = nu;
       }

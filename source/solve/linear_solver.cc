@@ -433,7 +433,10 @@ namespace tetradapt::solve
       = conjugate_gradients(matrix(), *preconditioner, right_hand_side, control, x);
     IterationResult result = control.result();
     result.converged       = ending == Ending::converged;
-    result.is_indefinite   = ending == Ending::indefinite;
+    // In double precision only the matrix makes multigrid not positive; a factorisation would tell.
+    result.is_indefinite
+      = ending == Ending::indefinite
+        || (ending == Ending::not_positive && !is_single && !can_factorise_instead());
     if (ending == Ending::not_finite)
       result.gained = 0.; // x is what it was
     if (result.iterations == 0 && result.residual > 0.)

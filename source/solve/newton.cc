@@ -12,7 +12,7 @@ namespace tetradapt::solve
   {
     /** Part of the decrease by the slope that a step must reach (Armijo). */
     constexpr double enough_decrease = 1e-4;
-    /** A step that makes the residual this much smaller is taken whatever the potential says. */
+    /** A step that makes the residual this much smaller is taken even if the potential rises. */
     constexpr double       enough_reduction = 0.5;
     constexpr unsigned int max_halvings     = 10;
     /** A residual of this many times the rounding in it is rounding. */

@@ -79,7 +79,7 @@ namespace tetradapt::solve
   struct IterationResult
   {
     bool converged = false;
-    /** Ended by a direction of negative energy. */
+    /** Ended since the matrix is not positive definite, as far as can be told. */
     bool is_indefinite = false;
     /** Ended early by IterationLimits::give_up_from. */
     bool         gave_up    = false;

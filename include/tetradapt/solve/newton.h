@@ -90,7 +90,7 @@ namespace tetradapt::solve
      * Goes on from @p x, which must be admissible where nothing prescribed moves. Linear solves
      * are as exact as the residual falls (Eisenstat and Walker 1996, their second choice).
      * Ends when the residual is below the tolerance or a few times State::floor.
-     * @p x is the last admissible iterate afterwards, whatever the ending.
+     * Afterwards @p x is the last admissible iterate, also where solve() did not converge.
      */
     Result
     solve(const Limits &limits, Vector &x) const;
