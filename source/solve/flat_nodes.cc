@@ -17,6 +17,8 @@ namespace tetradapt::solve
     constexpr double largest_isotropy = 0.15, rather_flat = 0.3;
     /** The mean below which cells are very flat: bricks about eight times longer. */
     constexpr double very_flat = 0.025;
+    /** The mean below which cells are clearly flat: bricks about 4.5 times longer. */
+    constexpr double clearly_flat = 0.075;
     /** Of the longest edge, in flat and in very flat cells. Columns of bricks are half an edge
      * apart. */
     constexpr double reach_by_edge = 0.2, reach_if_very_flat = 0.16;
@@ -27,6 +29,8 @@ namespace tetradapt::solve
     /** Of all points, that have to be flat to be worth the effort; and that have to be rather
      * flat for all to be taken. */
     constexpr double least_share = 0.002, share_of_all = 0.5;
+    /** Of all points, from which flat ones decide how the whole mesh is smoothed. */
+    constexpr double dominant_share = 0.5;
 
     /** What the cells around a vertex look like. */
     struct Shape
@@ -118,6 +122,7 @@ namespace tetradapt::solve
     if (sums[1] < least_share * sums[0])
       return flat;
     flat.are_very_flat = sums[2] < very_flat * sums[1];
+    flat.are_dominant  = sums[1] > dominant_share * sums[0] && sums[2] < clearly_flat * sums[1];
     if (sums[3] < share_of_all * sums[0])
       for (unsigned int k = 0; k < rings; ++k)
         dilate(space, is_flat);

@@ -34,8 +34,13 @@ namespace tetradapt::solve
      * found late: that costs time, but no solution. */
     constexpr unsigned int correction_from = 20, factorisation_from = 40;
 
-    /** Predicted iterations above which the correction for flat cells is worth its set-up. */
-    constexpr unsigned int most_without_correction = 100;
+    /** Predicted iterations above which flat cells are worth more work: first a higher degree of
+     * the smoother, then the correction for them, whose set-up takes long. */
+    constexpr unsigned int most_if_flat = 60;
+
+    /** The degree of the smoother that pays where degree 1 corrects badly, as in flat cells; but
+     * not together with the correction for these. */
+    constexpr unsigned int higher_degree = 12;
 
     /** The largest number of unknowns for which a factorisation takes over. */
     constexpr unsigned long most_factorised_later = 150000;
@@ -215,7 +220,17 @@ namespace tetradapt::solve
     preconditioner     = in_double(multigrid<float>(scale), scale, space.vector_layout());
     if (couplings != nullptr)
       preconditioner = std::make_unique<RigidPreconditioner>(std::move(preconditioner), *couplings);
-    is_single = true;
+    is_single        = true;
+    has_usual_degree = true;
+    if (flat.are_dominant)
+      smooth_more();
+  }
+
+  void
+  LinearSolver::smooth_more() const
+  {
+    preconditioner->set_smoother_degree(higher_degree);
+    has_usual_degree = false;
   }
 
   void
@@ -377,7 +392,7 @@ namespace tetradapt::solve
       {
         limits.max_iterations  = parameters.max_iterations - result.iterations; // in total
         const bool may_improve = has_better_preconditioner();
-        limits.most_predicted  = may_improve ? most_without_correction : limits.max_iterations;
+        limits.most_predicted  = may_improve ? most_if_flat : limits.max_iterations;
         limits.give_up_from    = may_improve               ? correction_from
                                  : can_factorise_instead() ? factorisation_from
                                                            : 0;
@@ -389,6 +404,12 @@ namespace tetradapt::solve
         // Of laws that are not linear this tells of the body; of others, of rounding.
         if (model.tangents.is_full() && step.is_indefinite)
           throw IndefiniteMatrix();
+        if (step.gave_up && may_improve && has_usual_degree)
+          {
+            smooth_more();
+            gained += step.gained;
+            continue;
+          }
         // Elements with almost no volume can be too much for single precision.
         if (!step.converged && is_single && result.iterations < parameters.max_iterations)
           {

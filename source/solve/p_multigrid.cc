@@ -8,8 +8,7 @@ namespace tetradapt::solve
 {
   namespace
   {
-
-    constexpr unsigned int smoother_degree = 3;
+    constexpr unsigned int usual_degree = 3; ///< of the smoother
 
     /** The inverses of a matrix's own blocks; zero at coupled nodes, which so stay at zero. */
     template <typename Number>
@@ -133,7 +132,7 @@ namespace tetradapt::solve
           coarse_solver(std::move(coarse)), flat(std::move(flat_correction)),
           smoother(*matrix,
                    smoothed_blocks(*matrix, couplings),
-                   smoother_degree,
+                   usual_degree,
                    flat != nullptr ? &flat->blocks() : nullptr)
       {
         product.reinit(fine_space.vector_layout());
@@ -154,6 +153,12 @@ namespace tetradapt::solve
             correct(destination, source); // twice, for symmetry
           }
         smoother.step(destination, source);
+      }
+
+      void
+      set_smoother_degree(const unsigned int degree) override
+      {
+        smoother.set_degree(degree);
       }
 
     private:

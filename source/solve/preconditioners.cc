@@ -36,6 +36,12 @@ namespace tetradapt::solve
           to[i] = factor * output.local_element(i);
       }
 
+      void
+      set_smoother_degree(const unsigned int degree) override
+      {
+        inverse->set_smoother_degree(degree);
+      }
+
     private:
       std::unique_ptr<ApproximateInverse<float>> inverse;
       double                                     scale;

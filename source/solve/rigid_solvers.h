@@ -30,6 +30,11 @@ namespace tetradapt::solve
       inverse->vmult(destination, source);
       couplings.project(destination);
     }
+    void
+    set_smoother_degree(const unsigned int degree) override
+    {
+      inverse->set_smoother_degree(degree);
+    }
 
   private:
     std::unique_ptr<Preconditioner>  inverse;

@@ -42,6 +42,13 @@ namespace tetradapt::solve
     void
     step(VectorOf<Number> &x, const VectorOf<Number> &b) const;
 
+    /** The degree of the polynomials from now on. */
+    void
+    set_degree(const unsigned int new_degree)
+    {
+      degree = new_degree;
+    }
+
     /** The estimate of the largest eigenvalue of D^-1 A, with its margin. */
     double
     largest_eigenvalue() const

@@ -11,6 +11,8 @@ namespace tetradapt::solve
   {
     bool exist         = false; ///< on any rank
     bool are_very_flat = false; ///< on the average over all ranks
+    /** Cells are flat at most of the nodes, and on the average clearly so. */
+    bool are_dominant = false;
     /** How far clusters reach from each owned node: a part of the longest edge there; zero
      * where cells are neither flat nor long. Empty if there are no such nodes. */
     std::vector<double> reach;

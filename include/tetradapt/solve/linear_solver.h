@@ -122,6 +122,9 @@ namespace tetradapt::solve
     precondition_in_single() const;
     void
     precondition_in_double() const;
+    /** From now on by polynomials of a higher degree. */
+    void
+    smooth_more() const;
     double
     largest_diagonal() const;
     /** Null without springs. */
@@ -169,7 +172,8 @@ namespace tetradapt::solve
     /** Made again in double precision where single does not do. */
     mutable std::unique_ptr<fem::Space>     coarse_space; ///< of p-multigrid
     mutable std::unique_ptr<Preconditioner> preconditioner;
-    mutable bool                            is_single = false;
+    mutable bool                            is_single        = false;
+    mutable bool                            has_usual_degree = true; ///< of the smoother
     /** From the beginning, or made when conjugate gradients failed. */
     mutable std::unique_ptr<DirectSolver>      direct;
     mutable std::unique_ptr<RigidDirectSolver> rigid_direct; ///< in its place with couplings

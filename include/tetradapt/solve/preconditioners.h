@@ -25,6 +25,13 @@ namespace tetradapt::solve
     /** destination = approximate inverse times source. Collective. */
     virtual void
     vmult(VectorOf<Number> &destination, const VectorOf<Number> &source) const = 0;
+
+    /** From now on, on the finest level of multigrid, smooths by polynomials of this degree: a
+     * cycle then takes longer, and there are fewer. Does nothing where nothing is smoothed so. */
+    virtual void
+    set_smoother_degree(unsigned int /*degree*/)
+    {
+    }
   };
 
   using Preconditioner = ApproximateInverse<double>;
