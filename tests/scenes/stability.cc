@@ -88,7 +88,8 @@ namespace
       for (const std::string options :
            {"--set Degree=1", "--set Degree=2", "--set Degree=2 --set Solver/Type=direct"})
         if (name != "size_ratio" || !contains(options, "direct"))
-          check(name + " " + options, table_of(name, options).last("relative_energy_error") < 3e-7);
+          // Conjugate gradients end by the residual: 1.3e-7 or 3.4e-7 with other compilers.
+          check(name + " " + options, table_of(name, options).last("relative_energy_error") < 1e-6);
     // A residual of 1e-8 used to leave an error of 1e-3 on cells of 0.0004 degrees.
     write("flat.node", "5 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 0 0 1\n4 .3 .3 1e-5\n");
     write("flat.ele", "4 4 0\n0 0 1 2 4\n1 0 1 4 3\n2 1 2 4 3\n3 2 0 4 3\n");
