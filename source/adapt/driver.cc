@@ -79,21 +79,7 @@ namespace tetradapt::adapt
       log.info(
         "Solver/Stopping = discretisation is not followed: an estimator needs the solution of "
         "the discrete equations. Conjugate gradients go on to Solver/Tolerance.");
-    StopDecision decision;
-    for (unsigned int number = 0; !decision.stop(); ++number)
-      {
-        Cycle      cycle       = solve_cycle(number);
-        const bool by_estimate = accepted && is_tested && compares_estimates(cycle);
-        bool       rejected    = !by_estimate && is_rejected_by_energy(cycle);
-        if (!rejected)
-          compare_and_estimate(cycle);
-        if (by_estimate)
-          rejected = is_rejected_by_estimate(cycle);
-        set_seconds(cycle.record);
-        history.push_back(cycle.record);
-        core::on_first_rank(communicator, [&]() { announce(cycle); });
-        decision = rejected ? fall_back() : finish(std::move(cycle));
-      }
+    const StopDecision decision = run_cycles();
     for (const Doubt &doubt : doubts)
       log.warning("last cycle: " + doubt.what + " " + doubt.advice);
     core::on_first_rank(communicator, [&]() {
@@ -127,7 +113,7 @@ namespace tetradapt::adapt
     warn_of_flat_cells();
     check_placement(scene, mesh, log);
     start.reset();
-    predicted_error = 0.;
+    expect_error(0.);
     log.info((number == 0 ? "Mesh: " : "Mesh " + std::to_string(number) + ": ")
              + describe_mesh(*mesh, current.record));
     if (number == 0)
@@ -212,7 +198,7 @@ namespace tetradapt::adapt
       const auto                scope = timer.scope("solve");
       solve::StaticSystem::Stop stop;
       if (stops_early)
-        stop.algebraic_error = scene.solver.solver_error_fraction * predicted_error;
+        stop.algebraic_error = solver_error(scene.solver.solver_error_fraction);
       system = std::make_shared<solve::StaticSystem>(
         scene, *materials, mesh, scene.degree, communicator, in_cycle(number));
       cycle.solution = system->solve(start.get(), stop);
@@ -366,7 +352,7 @@ namespace tetradapt::adapt
   }
 
   StopDecision
-  Driver::decide(const Cycle &cycle) const
+  Driver::decide_by_rules(const Cycle &cycle) const
   {
     StoppingContext context;
     context.degree            = scene.degree;
@@ -392,23 +378,43 @@ namespace tetradapt::adapt
     return decide_stop(scene.adaptivity, context, cycles);
   }
 
-  StopDecision
-  Driver::finish(Cycle cycle)
+  void
+  Driver::solve(const unsigned int number)
   {
-    StopDecision decision = decide(cycle);
-    for (const auto &warning : decision.warnings)
-      log.warning("cycle " + std::to_string(cycle.record.cycle) + ": " + warning);
-    if (decision.stop())
-      return decision;
-    n_rejected = 0;
-    accepted.reset();
-    decision = next_mesh(cycle);
-    if (is_tested && !decision.stop())
+    present = solve_cycle(number);
+  }
+
+  void
+  Driver::estimate()
+  {
+    Cycle     &cycle       = *present;
+    const bool by_estimate = accepted && compares_estimates(cycle);
+    if (by_estimate || !is_rejected_by_energy(cycle))
+      compare_and_estimate(cycle);
+    if (by_estimate)
+      reject_by_estimate(cycle);
+    set_seconds(cycle.record);
+    history.push_back(cycle.record);
+    core::on_first_rank(communicator, [&]() { announce(cycle); });
+  }
+
+  StopDecision
+  Driver::decide()
+  {
+    StopDecision decision;
+    if (present->record.acceptance == Acceptance::rejected)
+      ++n_rejected;
+    else
       {
-        // What a rejection needs, and no more.
-        cycle.comparison.reset();
-        accepted = std::move(cycle);
+        decision = decide_by_rules(*present);
+        for (const auto &warning : decision.warnings)
+          log.warning("cycle " + std::to_string(present->record.cycle) + ": " + warning);
+        if (decision.stop())
+          return decision;
+        n_rejected = 0;
+        accepted   = std::move(present);
       }
+    present.reset();
     return decision;
   }
 } // namespace tetradapt::adapt

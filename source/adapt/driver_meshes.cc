@@ -56,6 +56,28 @@ namespace tetradapt::adapt
   }
 
   StopDecision
+  Driver::mark()
+  {
+    return n_rejected > 0 ? mark_rejected(*accepted) : mark_accepted(*accepted);
+  }
+
+  StopDecision
+  Driver::refine()
+  {
+    StopDecision decision;
+    if (n_rejected > 0)
+      replace_rejected(*accepted);
+    else
+      decision = next_mesh(*accepted);
+    // What a rejection needs, and no more.
+    if (is_tested)
+      accepted->comparison.reset();
+    else
+      accepted.reset();
+    return decision;
+  }
+
+  StopDecision
   Driver::next_mesh(Cycle &cycle)
   {
     switch (scene.adaptivity.strategy)
@@ -77,7 +99,7 @@ namespace tetradapt::adapt
   void
   Driver::predict_error(const CycleRecord &record, const double factor)
   {
-    predicted_error = record.energy_error.value_or(record.estimate.value_or(0.)) * factor;
+    expect_error(record.energy_error.value_or(record.estimate.value_or(0.)) * factor);
   }
 
   void
@@ -111,31 +133,32 @@ namespace tetradapt::adapt
   }
 
   void
-  Driver::refine_mesh(Cycle &cycle, const SizeField &field, const bool from_scratch)
+  Driver::refine_mesh(Cycle &cycle, const bool from_scratch)
   {
     const unsigned int           old_tets = mesh->n_cells();
     const compare::PointLocator &locator  = cycle.comparison->locator();
-    predicted_reduction                   = field.predicted_reduction;
+    predicted_reduction                   = sizes.predicted_reduction;
     predicted_from                        = compare::root_of_squares(cycle.indicators);
     if (from_scratch)
       {
         const mesh::EdgeTable *edges = edges_of(*cycle.solution.displacement);
         use(mesh_maker.made_from_scratch(
-          *mesh, field, locator, edges != nullptr ? *edges : mesh::build_edges(*mesh)));
+          *mesh, sizes, locator, edges != nullptr ? *edges : mesh::build_edges(*mesh)));
       }
     else
-      use(mesh_maker.refined(*mesh, field, locator));
+      use(mesh_maker.refined(*mesh, sizes, locator));
     std::ostringstream text;
     text << (from_scratch ? "Made from scratch" : "Refined") << " from " << old_tets << " to "
-         << mesh->n_cells() << " tetrahedra (" << std::lround(field.predicted_tets)
+         << mesh->n_cells() << " tetrahedra (" << std::lround(sizes.predicted_tets)
          << " predicted): " << describe_mesh(*mesh, current.record);
     log.detail(text.str());
   }
 
   StopDecision
-  Driver::adapt_mesh(Cycle &cycle)
+  Driver::mark_accepted(Cycle &cycle)
   {
-    SizeField field;
+    if (scene.adaptivity.strategy != Adaptivity::Strategy::adaptive)
+      return {};
     if (predicted_reduction > 0.)
       reduction_power
         = next_reduction_power(predicted_reduction,
@@ -144,14 +167,19 @@ namespace tetradapt::adapt
     {
       const auto scope = timer.scope("marking");
       in_cycle(cycle.record.cycle).progress("marking and sizing");
-      field = make_size_field(cycle, false);
+      sizes = make_size_field(cycle, false);
     }
     const double largest = *std::max_element(cycle.indicators.begin(), cycle.indicators.end());
     // Below this an error is rounding, and refining would chase noise.
     const bool is_exact = relative_error_or_estimate(cycle.record).value_or(1.) < 1e-10;
-    if (largest == 0. || is_exact || field.n_refined == 0)
+    if (largest == 0. || is_exact || sizes.n_refined == 0)
       return decide_nothing_to_refine(is_exact ? 0. : largest);
+    return {};
+  }
 
+  StopDecision
+  Driver::adapt_mesh(Cycle &cycle)
+  {
     const auto         old_mesh     = mesh;
     const unsigned int old_tets     = mesh->n_cells();
     const bool         from_scratch = plan.needs(Plan::body_remeshing);
@@ -160,21 +188,21 @@ namespace tetradapt::adapt
       {
         {
           const auto scope = timer.scope("mesh");
-          refine_mesh(cycle, field, from_scratch);
+          refine_mesh(cycle, from_scratch);
         }
         if (mesh->n_cells() != old_tets || !can_insist || from_scratch)
           break;
         // Sizes that are just not below what TetGen would split change nothing: the
         // factor, learned from a few cells, was too large.
         mesh                    = old_mesh;
-        obtained_over_predicted = 0.5 * field.obtained_over_predicted;
+        obtained_over_predicted = 0.5 * sizes.obtained_over_predicted;
         const auto scope        = timer.scope("marking");
-        field                   = make_size_field(cycle, false);
+        sizes                   = make_size_field(cycle, false);
       }
-    obtained_over_predicted = next_obtained_over_predicted(field, mesh->n_cells());
+    obtained_over_predicted = next_obtained_over_predicted(sizes, mesh->n_cells());
     predict_error(cycle.record,
                   predicted_factor(cycle.indicators,
-                                   field,
+                                   sizes,
                                    static_cast<double>(mesh->n_cells()) / old_tets,
                                    scene.degree));
     prepare_start(cycle);
@@ -182,44 +210,48 @@ namespace tetradapt::adapt
   }
 
   StopDecision
-  Driver::fall_back()
+  Driver::mark_rejected(Cycle &cycle)
   {
-    // Back to the mesh of the last accepted cycle, whose solution is still there.
-    Cycle &cycle     = *accepted;
-    mesh             = cycle.solution.displacement->shared_mesh();
-    cycle.comparison = std::make_unique<estimate::Comparison>(cycle.solution.displacement,
+    // The solution of the last accepted cycle is still there.
+    mesh                    = cycle.solution.displacement->shared_mesh();
+    cycle.comparison        = std::make_unique<estimate::Comparison>(cycle.solution.displacement,
                                                               *materials,
                                                               scene.exact_solution,
                                                               sampling,
                                                               communicator,
                                                               excluded);
-    ++n_rejected;
-    StopDecision decision;
+    const std::string where = "Back to the " + std::to_string(mesh->n_cells())
+                              + " tetrahedra of cycle " + std::to_string(cycle.record.cycle) + ", ";
     if (n_rejected == 1)
       {
-        log.info("Back to the " + std::to_string(mesh->n_cells()) + " tetrahedra of cycle "
-                 + std::to_string(cycle.record.cycle) + ", refined more strongly.");
-        const auto      scope    = timer.scope("mesh");
-        const SizeField field    = make_size_field(cycle, true);
-        const double    old_tets = mesh->n_cells();
-        refine_mesh(cycle, field, false);
-        predict_error(
-          cycle.record,
-          predicted_factor(cycle.indicators, field, mesh->n_cells() / old_tets, scene.degree));
-        prepare_start(cycle);
+        log.info(where + "refined more strongly.");
+        const auto scope = timer.scope("marking");
+        sizes            = make_size_field(cycle, true);
+        return {};
       }
-    else
-      {
-        decision = decide_uniform_fallback(scene.adaptivity, cycle.record);
-        if (!decision.stop())
-          {
-            log.info("Back to the " + std::to_string(mesh->n_cells()) + " tetrahedra of cycle "
-                     + std::to_string(cycle.record.cycle) + ", each cut into eight.");
-            refine_uniformly(cycle);
-          }
-      }
-    cycle.comparison.reset();
+    const StopDecision decision = decide_uniform_fallback(scene.adaptivity, cycle.record);
+    if (!decision.stop())
+      log.info(where + "each cut into eight.");
     return decision;
+  }
+
+  void
+  Driver::replace_rejected(Cycle &cycle)
+  {
+    if (n_rejected > 1)
+      {
+        refine_uniformly(cycle);
+        return;
+      }
+    const double old_tets = mesh->n_cells();
+    {
+      const auto scope = timer.scope("mesh");
+      refine_mesh(cycle, false);
+    }
+    predict_error(
+      cycle.record,
+      predicted_factor(cycle.indicators, sizes, mesh->n_cells() / old_tets, scene.degree));
+    prepare_start(cycle);
   }
 
   void

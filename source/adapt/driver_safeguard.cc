@@ -44,7 +44,7 @@ namespace tetradapt::adapt
   bool
   Driver::is_rejected_by_energy(Cycle &cycle)
   {
-    if (!accepted || !is_tested)
+    if (!accepted)
       return false;
     const double     change = change_of_problem(accepted->record, cycle.record);
     const EnergyTest test = compare_energies(accepted->energy, cycle.energy, current.swept, change);
@@ -56,8 +56,8 @@ namespace tetradapt::adapt
     return reject(cycle, text.str());
   }
 
-  bool
-  Driver::is_rejected_by_estimate(Cycle &cycle)
+  void
+  Driver::reject_by_estimate(Cycle &cycle)
   {
     const double before = compare::root_of_squares(accepted->indicators);
     const double after  = compare::root_of_squares(cycle.indicators);
@@ -65,15 +65,14 @@ namespace tetradapt::adapt
                + ": the loads or the volume changed with the mesh, so that estimates are "
                  "compared in place of energies.");
     if (!is_worse_estimate(before, after))
-      return false;
+      return;
     std::ostringstream text;
     text << "the refinement indicator's estimate is " << after << ", above the " << before;
     if (!reject(cycle, text.str()))
-      return false;
+      return;
     levels.pop_back();
     leave_out_errors(cycle.record);
     cycle.indicators.clear();
-    return true;
   }
 
   bool

@@ -3,11 +3,11 @@
 #define tetradapt_adapt_driver_h
 
 #include "tetradapt/adapt/acceptance.h"
+#include "tetradapt/adapt/adaptive_loop.h"
 #include "tetradapt/adapt/doubts.h"
 #include "tetradapt/adapt/mesh_maker.h"
 #include "tetradapt/adapt/observer.h"
 #include "tetradapt/adapt/size_field.h"
-#include "tetradapt/adapt/stopping.h"
 #include "tetradapt/compare/reference.h"
 #include "tetradapt/compare/reference_sampling.h"
 #include "tetradapt/core/log.h"
@@ -36,7 +36,7 @@ namespace tetradapt::adapt
    * without errors. Every rank of the communicator makes one and calls run(); observers are told on
    * the first rank only.
    */
-  class Driver
+  class Driver : private AdaptiveLoop
   {
   public:
     /** Describes a mesh for the log; made by the report room. */
@@ -86,9 +86,9 @@ namespace tetradapt::adapt
     /** Whether the cycle is worse than the one that its mesh was made from. */
     bool
     is_rejected_by_energy(Cycle &cycle);
-    /** The same, by the refinement indicator; after compare_and_estimate(). */
-    bool
-    is_rejected_by_estimate(Cycle &cycle);
+    /** Rejects it if it is worse by the refinement indicator; after compare_and_estimate(). */
+    void
+    reject_by_estimate(Cycle &cycle);
     /** Says why a cycle is worse. @return whether it is rejected. */
     bool
     reject(Cycle &cycle, const std::string &reason);
@@ -98,23 +98,37 @@ namespace tetradapt::adapt
     set_seconds(CycleRecord &record) const;
     void
     announce(const Cycle &cycle);
+    /** Whether an accepted cycle ends the loop. */
     StopDecision
-    decide(const Cycle &cycle) const;
-    /** Goes on after a finished cycle. */
+    decide_by_rules(const Cycle &cycle) const;
+
+    void
+    solve(unsigned int number) override;
+    void
+    estimate() override;
     StopDecision
-    finish(Cycle cycle);
-    /** Replaces the mesh; the decision says why the loop ends if it cannot. */
+    decide() override;
+    StopDecision
+    mark() override;
+    StopDecision
+    refine() override;
+
+    /** All of these take the accepted cycle. */
+    StopDecision
+    mark_accepted(Cycle &cycle);
+    /** Returns to its mesh, for another one in the place of the rejected. */
+    StopDecision
+    mark_rejected(Cycle &cycle);
     StopDecision
     next_mesh(Cycle &cycle);
     StopDecision
     adapt_mesh(Cycle &cycle);
-    /** Another mesh in the place of a rejected one. */
-    StopDecision
-    fall_back();
+    void
+    replace_rejected(Cycle &cycle);
     SizeField
     make_size_field(const Cycle &cycle, bool stronger) const;
     void
-    refine_mesh(Cycle &cycle, const SizeField &field, bool from_scratch);
+    refine_mesh(Cycle &cycle, bool from_scratch);
     void
     refine_uniformly(Cycle &cycle);
     void
@@ -149,13 +163,14 @@ namespace tetradapt::adapt
     compare::ExcludedRegion                           excluded; ///< what errors leave out
     std::unique_ptr<mesh::NodalField>                 start;    ///< first iterate of the next solve
     std::vector<CycleRecord>                          history;
-    std::vector<estimate::EnergyLevel>                levels; ///< accepted meshes only
-    std::vector<Doubt>                                doubts; ///< about the last solution
-    /** The cycle that the present mesh was made from, while it can be rejected. */
+    std::vector<estimate::EnergyLevel>                levels;  ///< accepted meshes only
+    std::vector<Doubt>                                doubts;  ///< about the last solution
+    std::optional<Cycle>                              present; ///< while it is not decided on
+    /** The cycle that the next mesh is made from; once it is made, while that can be rejected. */
     std::optional<Cycle> accepted;
-    unsigned int         n_rejected      = 0;          ///< since then
-    bool                 is_tested       = false;      ///< energies tell whether a mesh is better
-    double               predicted_error = 0.;         ///< of this cycle, energy norm; 0: unknown
+    unsigned int         n_rejected = 0;               ///< since then
+    bool                 is_tested  = false;           ///< energies tell which mesh is better
+    SizeField            sizes;                        ///< for the next mesh
     double               obtained_over_predicted = 0.; ///< see SizeFieldOptions
     /** What the size field of this mesh predicted of the error, and from where; 0: nothing. */
     double predicted_reduction = 0., predicted_from = 0.;
