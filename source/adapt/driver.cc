@@ -5,10 +5,10 @@
 #include "tetradapt/adapt/left_out.h"
 #include "tetradapt/adapt/load_record.h"
 #include "tetradapt/adapt/placement.h"
+#include "tetradapt/adapt/reference_maker.h"
 #include "tetradapt/adapt/solution_record.h"
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/on_first_rank.h"
-#include "tetradapt/estimate/recovery/recovery.h"
 #include "tetradapt/mesh/finalize.h"
 
 #include <algorithm>
@@ -144,15 +144,9 @@ namespace tetradapt::adapt
   {
     if (!plan.uses_reference())
       return;
-    const auto scope       = timer.scope("reference");
-    const auto cell_errors = [](const mesh::NodalField       &solution,
-                                const mechanics::MaterialMap &materials,
-                                MPI_Comm                      communicator,
-                                const scene::Scene           *scene) {
-      return estimate::recovery_estimate(solution, materials, communicator, scene).cell_energy;
-    };
-    reference = std::make_unique<compare::Reference>(
-      compare::make_reference(scene, *materials, mesh, communicator, log, cell_errors, excluded));
+    const auto scope = timer.scope("reference");
+    reference        = std::make_unique<compare::Reference>(
+      adapt::make_reference(scene, *materials, *mesh, communicator, log, excluded));
     sampling = std::make_shared<compare::ReferenceSampling>(reference->displacement,
                                                             *materials,
                                                             communicator,

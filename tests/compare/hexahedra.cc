@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
 // A reference on hexahedra: points are found, differences and nodal errors are those to
-// the exact solution, and the cache gives back what was put in; on one and two ranks.
+// the exact solution; on one and two ranks.
 
 #include "tetradapt/compare/difference.h"
-#include "tetradapt/compare/reference.h"
-#include "tetradapt/compare/reference_key.h"
 #include "tetradapt/core/exceptions.h"
-#include "tetradapt/io/mesh_source.h"
 
 #include "test_meshes.h"
 
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
-#include <cstring>
-#include <filesystem>
 #include <iostream>
 
 using namespace test_meshes;
@@ -146,7 +141,7 @@ namespace
   }
 
   scene::Scene
-  beam()
+  one_material()
   {
     scene::Scene              scene;
     scene::MaterialParameters material;
@@ -154,21 +149,6 @@ namespace
     material.constants["Young modulus"] = 10.;
     material.constants["Poisson ratio"] = 0.3;
     scene.materials                     = {material};
-    scene.mesh.source                   = scene::MeshSource::bricks;
-    scene.mesh.upper_corner             = Point<3>(2, 1, 1);
-    scene.mesh.cells                    = {{{4, 2, 2}}};
-    scene::SupportParameters support;
-    support.name            = "wall";
-    support.selector.groups = {"x-min"};
-    scene.supports          = {support};
-    scene::LoadParameters load;
-    load.name                 = "end";
-    load.selector.groups      = {"x-max"};
-    load.value                = {{"0", "0", "-1"}};
-    scene.loads               = {load};
-    scene.reference.type      = scene::ReferenceParameters::Type::hexahedra;
-    scene.reference.tolerance = 0.05;
-    scene.reference.degree    = 2;
     return scene;
   }
 
@@ -176,7 +156,7 @@ namespace
   void
   test_differences()
   {
-    const scene::Scene scene = beam();
+    const scene::Scene scene = one_material();
     const auto         mesh  = cube(3, shaken(3, .2, 5));
     mesh->regions.assign(mesh->n_cells(), 0);
     const mechanics::MaterialMap materials(scene, *mesh);
@@ -212,48 +192,6 @@ namespace
                 && ren.largest_distance == 0.);
       }
   }
-
-  void
-  test_cache()
-  {
-    const std::string directory     = "hexahedra_test_cache";
-    scene::Scene      scene         = beam();
-    scene.reference.cache_directory = directory;
-    if (first_rank)
-      std::filesystem::remove_all(directory);
-    MPI_Barrier(MPI_COMM_WORLD);
-    const auto mesh = std::make_shared<mesh::TetMesh>(io::make_mesh(scene, 0, core::Log()));
-    const mechanics::MaterialMap materials(scene, *mesh);
-    const auto                   make
-      = [&] { return make_reference(scene, materials, mesh, MPI_COMM_WORLD, {}, {}); };
-    const Reference a = make(), b = make();
-    const auto     &u = *a.displacement.hexahedra, &v = *b.displacement.hexahedra;
-    check("solved, then reused", !a.from_cache && b.from_cache);
-    check("with the same values",
-          u.values().size() == v.values().size()
-            && std::memcmp(u.values().data(),
-                           v.values().data(),
-                           u.values().size() * sizeof(Tensor<1, 3>))
-                 == 0
-            && u.planes() == v.planes() && u.n_cells() == v.n_cells());
-    check("and figures",
-          a.energy == b.energy && a.estimated_error == b.estimated_error && a.known_energy
-            && a.known_energy == b.known_energy && a.description == b.description);
-    check("known energy above that of the reference", *a.known_energy > a.energy);
-    const ReferenceSampling sampling(b.displacement, materials, MPI_COMM_WORLD);
-    check("energy by quadrature", near(std::pow(sampling.energy_norm(), 2), a.energy, 1e-6));
-
-    const std::string key   = reference_key(scene, *mesh);
-    auto              other = scene;
-    other.mesh.cells        = {{{6, 3, 3}}};
-    check("another mesh of tetrahedra, same key",
-          key == reference_key(other, io::make_mesh(other, 0, core::Log())));
-    other                     = scene;
-    other.reference.tolerance = 0.04;
-    check("another tolerance, another key", key != reference_key(other, *mesh));
-    if (first_rank)
-      std::filesystem::remove_all(directory);
-  }
 } // namespace
 
 int
@@ -270,5 +208,4 @@ main(int argc, char *argv[])
   cells.erase(cells.begin() + 3);
   refuse("a missing cell", cells);
   test_differences();
-  test_cache();
 }

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
-// Solutions on hexahedra: exact for linear displacements, within their own estimate of
-// a known energy, and the same as on tetrahedra for all kinds of supports and loads; on
-// one and on two ranks.
+// Hexahedra: exact for linear displacements, held where supports end, with the selections of the
+// scene; on one, two and three ranks.
 
 #include "tetradapt/io/mesh_source.h"
 #include "tetradapt/solve/hexahedral_multigrid.h"
-#include "tetradapt/solve/hexahedral_solution.h"
 
 #include "solving.h"
 
@@ -35,14 +33,6 @@ namespace
   mesh_of(const scene::Scene &scene)
   {
     return std::make_shared<mesh::TetMesh>(io::make_mesh(scene, 0, core::Log()));
-  }
-
-  solve::HexahedralSolution
-  solve_hexahedra(const scene::Scene &scene, const mesh::TetMesh &mesh, const double tolerance)
-  {
-    const mechanics::MaterialMap materials(scene, mesh);
-    return solve::solve_on_hexahedra(
-      scene, materials, mesh, tolerance, MPI_COMM_WORLD, core::Log());
   }
 
   scene::Scene
@@ -196,71 +186,6 @@ namespace
     say(name + "all are held", dealii::Utilities::MPI::max(worst, MPI_COMM_WORLD) < 1e-12);
   }
 
-  void
-  test_cantilever(const unsigned int degree, const double tolerance)
-  {
-    scene::Scene scene;
-    scene.mesh.source        = scene::MeshSource::bricks;
-    scene.mesh.upper_corner  = Point<3>(10, 1, 1);
-    scene.mesh.cells         = {{{10, 1, 1}}};
-    scene.materials          = {material("beam", 1000., 0.3)};
-    scene.supports           = {support("clamp", "x < 1e-9")};
-    scene.loads              = {load("tip", LoadType::traction, "x > 9.9", {{"0", "0", "-1"}})};
-    scene.reference.degree   = degree;
-    const auto        result = solve_hexahedra(scene, *mesh_of(scene), tolerance);
-    const double      known  = 4.004143; // from 6 million unknowns, to 5e-7
-    const double      error  = std::sqrt(known - result.energy);
-    const std::string name   = "cantilever, degree " + std::to_string(degree) + ": ";
-    say(name + "tolerance reached",
-        result.reached && result.estimated_error <= tolerance * std::sqrt(result.energy));
-    say(name + "estimate not below the error", result.estimated_error >= error);
-    say(name + "estimate not above twice the error", result.estimated_error <= 2. * error);
-    say(name + "extrapolated energy within half of what is missing",
-        std::abs(*result.extrapolated_energy - known) < .5 * (known - result.energy));
-  }
-
-  /** All supports and loads at once, against quadratic tetrahedra. */
-  void
-  test_everything()
-  {
-    // A box, so that there are no strong singularities.
-    scene::Scene scene = l_shape();
-    scene.mesh.blocks
-      = {{Point<3>(0, 0, 0), Point<3>(1, 1, 1)}, {Point<3>(1, 0, 0), Point<3>(2, 1, 1)}};
-    scene.mesh.block_regions             = {0, 1};
-    scene.materials                      = {material("soft", 10., 0.3), material("hard", 20., 0.2)};
-    scene.materials[1].regions           = {1};
-    scene.materials[0].density           = 1.;
-    scene.materials[1].density           = 2.;
-    scene.materials[1].thermal_expansion = 0.02;
-    scene.supports           = {support("wall", "x < 1e-9", "xyz", {{"0", "0.1*z", "0"}}),
-                                support("rail", "z < 1e-9 && x > 1 - 1e-9", "z")};
-    scene.loads              = {load("weight", LoadType::gravity, "", {{"0", "0", "-0.3"}}),
-                                load("end", LoadType::traction, "x > 2 - 1e-9", {{"0.2", "0.3*z", "0.5"}}),
-                                load("lid", LoadType::pressure, "z > 1 - 1e-9", {{"x", "", ""}}),
-                                load("wind", LoadType::body_force, "", {{"0.1*z", "0.4*x", "0"}}),
-                                load("heat", LoadType::temperature, "", {{"2 + y", "", ""}})};
-    scene.mesh.size          = "0.15";
-    scene.reference.degree   = 2;
-    scene.reference.max_dofs = 40000;
-    const auto mesh          = mesh_of(scene);
-    const auto hexahedra     = solve_hexahedra(scene, *mesh, 0.02);
-    const auto tetrahedra    = solve_scene(scene, mesh, 2);
-    double     largest = 0., difference = 0.;
-    for (unsigned int n = 0; n < tetrahedra.displacement->n_nodes(); ++n)
-      {
-        const auto &u  = tetrahedra.displacement->values[n];
-        const auto  at = hexahedra.displacement->locate(tetrahedra.displacement->node_position(n));
-        largest        = std::max(largest, u.norm());
-        difference
-          = std::max(difference, (u - hexahedra.displacement->value(at.cell, at.unit)).norm());
-      }
-    say("everything: energies agree to 0.5 %",
-        std::abs(hexahedra.energy / tetrahedra.energy - 1.) < 5e-3);
-    say("everything: displacements agree to 1 %", difference < 1e-2 * largest);
-    say("everything: no energy is known", !hexahedra.extrapolated_energy);
-  }
-
   /** Cells know their bricks, and with these the sides of the body. */
   void
   test_bricks()
@@ -372,9 +297,6 @@ main(int argc, char *argv[])
   test_patch(3);
   test_border(2);
   test_border(3);
-  test_cantilever(2, 0.02);
-  test_cantilever(3, 0.01);
-  test_everything();
   test_bricks();
   test_selections();
 }

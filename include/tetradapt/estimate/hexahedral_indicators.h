@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#ifndef tetradapt_solve_hexahedral_indicators_h
-#define tetradapt_solve_hexahedral_indicators_h
+#ifndef tetradapt_estimate_hexahedral_indicators_h
+#define tetradapt_estimate_hexahedral_indicators_h
 
 #include "tetradapt/mechanics/material_map.h"
 #include "tetradapt/solve/hexahedral_space.h"
 
-namespace tetradapt::solve
+namespace tetradapt::estimate
 {
   /**
    * Indicators of the energy error of a displacement on hexahedra: in each own cell the
@@ -17,9 +17,9 @@ namespace tetradapt::solve
    *        cells, and what these depend on.
    */
   std::vector<double>
-  hexahedral_indicators(const HexahedralSpace        &space,
+  hexahedral_indicators(const solve::HexahedralSpace &space,
                         const mechanics::MaterialMap &materials,
-                        const Vector                 &displacement);
-} // namespace tetradapt::solve
+                        const solve::Vector          &displacement);
+} // namespace tetradapt::estimate
 
 #endif

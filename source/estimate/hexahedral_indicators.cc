@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "tetradapt/solve/hexahedral_indicators.h"
+#include "tetradapt/estimate/hexahedral_indicators.h"
 
 #include "tetradapt/mesh/hexahedral_field.h"
 
@@ -8,11 +8,17 @@
 #include <cmath>
 #include <set>
 
-namespace tetradapt::solve
+namespace tetradapt::estimate
 {
   namespace
   {
+    using dealii::Tensor;
     using mechanics::SymmetricTensor;
+    using solve::Constraints;
+    using solve::HexahedralCell;
+    using solve::HexahedralGrid;
+    using solve::HexahedralSpace;
+    using solve::Vector;
     using Stress = SymmetricTensor<2, 3>;
 
     /** Functions along an edge: derivatives at the nodes, values at Gauss' points. */
@@ -244,4 +250,4 @@ namespace tetradapt::solve
     displacement.zero_out_ghost_values();
     return result;
   }
-} // namespace tetradapt::solve
+} // namespace tetradapt::estimate
