@@ -19,16 +19,4 @@ namespace tetradapt::adapt
           return decision;
       }
   }
-
-  void
-  AdaptiveLoop::expect_error(const double error)
-  {
-    expected_error = error;
-  }
-
-  double
-  AdaptiveLoop::solver_error(const double fraction) const
-  {
-    return fraction * expected_error;
-  }
 } // namespace tetradapt::adapt

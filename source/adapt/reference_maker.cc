@@ -100,26 +100,24 @@ namespace tetradapt::adapt
                      const core::Log               &log,
                      const compare::ExcludedRegion &excluded)
     {
-      const std::string                &file = scene.reference.file;
-      mesh::TetMesh                     mesh;
-      unsigned int                      degree = 1;
-      std::vector<dealii::Tensor<1, 3>> values;
+      const std::string       &file = scene.reference.file;
+      compare::CachedReference run;
       core::on_first_rank(communicator, [&] {
         log.progress("reference: reading " + file);
-        const auto run = io::read_displacement_vtu(file);
-        mesh           = run.displacement->mesh();
-        degree         = run.displacement->degree();
-        values         = run.displacement->values;
-        for (const int region : mesh.regions)
+        const auto field = io::read_displacement_vtu(file).displacement;
+        run.mesh         = field->mesh();
+        run.degree       = field->degree();
+        run.values       = field->values;
+        for (const int region : run.mesh.regions)
           materials.linear_law(region); // throws for one without material
       });
-      const auto field
-        = compare::share_field(std::move(mesh), degree, std::move(values), {}, communicator);
+      compare::broadcast(run, communicator);
       Reference reference;
-      reference.displacement.tetrahedra = field;
-      reference.energy          = solve::compute_energies(*field, materials, communicator).energy;
-      reference.estimated_error = own_error(*field, materials, communicator, nullptr, excluded);
-      reference.description     = describe(*field, "read from " + file);
+      reference.displacement    = compare::displacement_of(std::move(run));
+      const auto &field         = *reference.displacement.tetrahedra;
+      reference.energy          = solve::compute_energies(field, materials, communicator).energy;
+      reference.estimated_error = own_error(field, materials, communicator, nullptr, excluded);
+      reference.description     = describe(field, "read from " + file);
       return reference;
     }
 

@@ -4,6 +4,7 @@
 #include "tetradapt/compare/fingerprint.h"
 #include "tetradapt/compare/problem_of_reference.h"
 #include "tetradapt/core/atomic_file.h"
+#include "tetradapt/core/on_first_rank.h"
 
 #include <cstdint>
 #include <cstring>
@@ -236,6 +237,21 @@ namespace tetradapt::compare
       return "";
     }
   } // namespace
+
+  void
+  broadcast(CachedReference &reference, MPI_Comm communicator)
+  {
+    if (core::is_alone(communicator))
+      return;
+    std::string bytes;
+    core::on_first_rank(communicator, [&] { bytes = pack(reference); });
+    std::size_t size = bytes.size();
+    core::broadcast_bytes(&size, sizeof(size), communicator);
+    bytes.resize(size);
+    core::broadcast_bytes(bytes.data(), size, communicator);
+    reference = CachedReference();
+    unpack(Reader(bytes.data(), size), reference);
+  }
 
   void
   write_reference_cache(const std::string     &file,

@@ -23,12 +23,18 @@ namespace tetradapt::adapt
 
     /** Says what error the next mesh is expected to have, in the energy norm; 0: it is unknown. */
     void
-    expect_error(double error);
+    expect_error(const double error)
+    {
+      expected_error = error;
+    }
 
     /** The error that iterations on this mesh may leave, in the energy norm: @p fraction of the
      * mesh's own, as it was expected; 0: that is unknown. */
     double
-    solver_error(double fraction) const;
+    solver_error(const double fraction) const
+    {
+      return fraction * expected_error;
+    }
 
   private:
     /** Solves on the present mesh. Cycles count from 0. */

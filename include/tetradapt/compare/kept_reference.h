@@ -3,6 +3,7 @@
 #define tetradapt_compare_kept_reference_h
 
 #include "tetradapt/compare/reference.h"
+#include "tetradapt/compare/reference_cache.h"
 #include "tetradapt/core/log.h"
 #include "tetradapt/scene/scene.h"
 
@@ -32,15 +33,9 @@ namespace tetradapt::compare
     std::string      file, key; ///< known to the first rank
   };
 
-  /** A field of a mesh and of values at its nodes that the first rank has, on every rank.
-   * @param pressures of the mixed form, else empty. Collective.
-   * @throws core::NumericalError if there are more or fewer values than nodes. */
-  std::shared_ptr<const mesh::NodalField>
-  share_field(mesh::TetMesh                     mesh,
-              unsigned int                      degree,
-              std::vector<dealii::Tensor<1, 3>> values,
-              std::vector<double>               pressures,
-              MPI_Comm                          communicator);
+  /** The displacement of what was read. */
+  ReferenceField
+  displacement_of(CachedReference cached);
 } // namespace tetradapt::compare
 
 #endif

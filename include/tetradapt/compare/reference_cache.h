@@ -5,6 +5,8 @@
 #include "tetradapt/mesh/hexahedral_field.h"
 #include "tetradapt/mesh/nodal_field.h"
 
+#include <mpi.h>
+
 #include <memory>
 #include <string>
 
@@ -25,6 +27,10 @@ namespace tetradapt::compare
     double                                   seconds      = 0.; ///< what it took to compute
     std::string                              description;       ///< of mesh and size, for the log
   };
+
+  /** Gives it from the first rank to all, but for the places that its mesh keeps. Collective. */
+  void
+  broadcast(CachedReference &reference, MPI_Comm communicator);
 
   /** What read_reference_cache() found. */
   struct CacheResult
