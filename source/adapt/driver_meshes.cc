@@ -65,8 +65,8 @@ namespace tetradapt::adapt
   Driver::refine()
   {
     StopDecision decision;
-    if (n_rejected > 0)
-      replace_rejected(*accepted);
+    if (n_rejected > 1)
+      refine_uniformly(*accepted);
     else
       decision = next_mesh(*accepted);
     // What a rejection needs, and no more.
@@ -180,10 +180,13 @@ namespace tetradapt::adapt
   StopDecision
   Driver::adapt_mesh(Cycle &cycle)
   {
-    const auto         old_mesh     = mesh;
-    const unsigned int old_tets     = mesh->n_cells();
-    const bool         from_scratch = plan.needs(Plan::body_remeshing);
-    const bool         can_insist   = scene.adaptivity.marking == Adaptivity::Marking::optimal_size;
+    const auto         old_mesh = mesh;
+    const unsigned int old_tets = mesh->n_cells();
+    // What is made in the place of a rejected mesh tells nothing of how TetGen follows sizes.
+    const bool is_first     = n_rejected == 0;
+    const bool from_scratch = is_first && plan.needs(Plan::body_remeshing);
+    const bool can_insist
+      = is_first && scene.adaptivity.marking == Adaptivity::Marking::optimal_size;
     for (unsigned int attempt = 0; attempt < 4; ++attempt)
       {
         {
@@ -199,14 +202,15 @@ namespace tetradapt::adapt
         const auto scope        = timer.scope("marking");
         sizes                   = make_size_field(cycle, false);
       }
-    obtained_over_predicted = next_obtained_over_predicted(sizes, mesh->n_cells());
+    if (is_first)
+      obtained_over_predicted = next_obtained_over_predicted(sizes, mesh->n_cells());
     predict_error(cycle.record,
                   predicted_factor(cycle.indicators,
                                    sizes,
                                    static_cast<double>(mesh->n_cells()) / old_tets,
                                    scene.degree));
     prepare_start(cycle);
-    return from_scratch ? StopDecision() : decide_new_mesh(old_tets, mesh->n_cells());
+    return from_scratch || !is_first ? StopDecision() : decide_new_mesh(old_tets, mesh->n_cells());
   }
 
   StopDecision
@@ -233,25 +237,6 @@ namespace tetradapt::adapt
     if (!decision.stop())
       log.info(where + "each cut into eight.");
     return decision;
-  }
-
-  void
-  Driver::replace_rejected(Cycle &cycle)
-  {
-    if (n_rejected > 1)
-      {
-        refine_uniformly(cycle);
-        return;
-      }
-    const double old_tets = mesh->n_cells();
-    {
-      const auto scope = timer.scope("mesh");
-      refine_mesh(cycle, false);
-    }
-    predict_error(
-      cycle.record,
-      predicted_factor(cycle.indicators, sizes, mesh->n_cells() / old_tets, scene.degree));
-    prepare_start(cycle);
   }
 
   void

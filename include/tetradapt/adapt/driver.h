@@ -113,7 +113,7 @@ namespace tetradapt::adapt
     StopDecision
     refine() override;
 
-    /** All of these take the accepted cycle. */
+    /** These make a mesh from the accepted cycle. */
     StopDecision
     mark_accepted(Cycle &cycle);
     /** Returns to its mesh, for another one in the place of the rejected. */
@@ -123,8 +123,6 @@ namespace tetradapt::adapt
     next_mesh(Cycle &cycle);
     StopDecision
     adapt_mesh(Cycle &cycle);
-    void
-    replace_rejected(Cycle &cycle);
     SizeField
     make_size_field(const Cycle &cycle, bool stronger) const;
     void
