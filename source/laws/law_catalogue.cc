@@ -40,14 +40,22 @@ namespace tetradapt::laws
                                 "kappa, in the unit of pressure that the loads have.",
                                 not_positive};
 
-    /** The maker of a class that is built from the two constants @p first and @p second. */
+    /** An entry for a class that is built from these two constants. */
     template <class Law>
-    std::function<std::unique_ptr<ConstitutiveLaw>(const Constants &)>
-    from(const Constant &first, const Constant &second)
+    LawEntry
+    entry(const std::string &name,
+          const std::string &documentation,
+          const Constant    &stiffness,
+          const Constant    &compressibility)
     {
-      return [first = first.name, second = second.name](const Constants &values) {
-        return std::make_unique<Law>(values.at(first), values.at(second));
-      };
+      return {name,
+              documentation,
+              {stiffness, compressibility},
+              stiffness.name,
+              compressibility.name,
+              [first = stiffness.name, second = compressibility.name](const Constants &values) {
+                return std::make_unique<Law>(values.at(first), values.at(second));
+              }};
     }
   } // namespace
 
@@ -55,22 +63,20 @@ namespace tetradapt::laws
   law_catalogue()
   {
     static const std::vector<LawEntry> entries{
-      {"linear elastic",
-       "isotropic, small strains",
-       {young_modulus, poisson_ratio},
-       from<LinearElastic>(young_modulus, poisson_ratio)},
-      {"neo-Hookean",
-       "mu/2 (tr C - 3 - 2 ln J) + lambda/2 (ln J)^2, finite strains",
-       {young_modulus, poisson_ratio},
-       from<NeoHookean>(young_modulus, poisson_ratio)},
-      {"split neo-Hookean",
-       "mu/2 (J^(-2/3) tr C - 3) + kappa/2 (J - 1)^2, finite strains",
-       {shear_modulus_constant, bulk_modulus},
-       from<SplitNeoHookean>(shear_modulus_constant, bulk_modulus)},
-      {"St. Venant-Kirchhoff",
-       "lambda/2 (tr E)^2 + mu E : E, finite rotations with small strains",
-       {young_modulus, poisson_ratio},
-       from<StVenantKirchhoff>(young_modulus, poisson_ratio)}};
+      entry<LinearElastic>(
+        "linear elastic", "isotropic, small strains", young_modulus, poisson_ratio),
+      entry<NeoHookean>("neo-Hookean",
+                        "mu/2 (tr C - 3 - 2 ln J) + lambda/2 (ln J)^2, finite strains",
+                        young_modulus,
+                        poisson_ratio),
+      entry<SplitNeoHookean>("split neo-Hookean",
+                             "mu/2 (J^(-2/3) tr C - 3) + kappa/2 (J - 1)^2, finite strains",
+                             shear_modulus_constant,
+                             bulk_modulus),
+      entry<StVenantKirchhoff>("St. Venant-Kirchhoff",
+                               "lambda/2 (tr E)^2 + mu E : E, finite rotations with small strains",
+                               young_modulus,
+                               poisson_ratio)};
     return entries;
   }
 

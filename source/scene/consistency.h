@@ -2,6 +2,7 @@
 #ifndef tetradapt_scene_consistency_h
 #define tetradapt_scene_consistency_h
 
+#include "tetradapt/laws/law_catalogue.h"
 #include "tetradapt/scene/mistakes.h"
 #include "tetradapt/scene/scene.h"
 
@@ -58,6 +59,10 @@ namespace tetradapt::scene
    * @throws core::InputError */
   void
   check_support_types(const Scene &scene);
+
+  /** The parameter of a material's law that is, say, &laws::LawEntry::stiffness. */
+  std::string
+  constant_path(const MaterialParameters &material, std::string laws::LawEntry::*constant);
 
   /** @throws InputError if a Young modulus leaves the range in which energies can be
    * computed, or if one is more than 1e12 times another. */

@@ -4,7 +4,6 @@
 #include "require.h"
 #include "values.h"
 
-#include "tetradapt/laws/law_catalogue.h"
 #include "tetradapt/scene/words.h"
 
 namespace tetradapt::scene
@@ -21,14 +20,6 @@ namespace tetradapt::scene
     poisson_ratio(const MaterialParameters &material)
     {
       return material.moduli_at_rest().poisson_ratio;
-    }
-
-    /** The parameter to change for another Poisson ratio. */
-    std::string
-    place(const MaterialParameters &material)
-    {
-      return "Materials/" + material.name + "/"
-             + laws::find_law(material.law).constants.back().name;
     }
 
     void
@@ -58,7 +49,7 @@ namespace tetradapt::scene
       for (const auto &material : scene.materials)
         mistakes.require(
           poisson_ratio(material) <= largest_nu,
-          place(material),
+          constant_path(material, &laws::LawEntry::compressibility),
           "the " + word(scene.formulation)
             + " form cannot solve for a material with a Poisson ratio of "
             + text_of(poisson_ratio(material)) + ": elements lock above " + text_of(largest_nu)
@@ -94,7 +85,7 @@ namespace tetradapt::scene
       for (const auto &material : scene.materials)
         mistakes.require(
           poisson_ratio(material) > 0.,
-          place(material),
+          constant_path(material, &laws::LawEntry::compressibility),
           "must be positive with Formulation = mixed, not " + text_of(poisson_ratio(material))
             + ". For a body without nearly incompressible parts leave out Formulation.");
       using Reference = ReferenceParameters::Type;
@@ -141,7 +132,8 @@ namespace tetradapt::scene
     if (scene.formulation != Formulation::mixed)
       for (const auto &material : scene.materials)
         if (poisson_ratio(material) > locking_nu[scene.degree - 1])
-          messages.push_back(place(material) + ": with a Poisson ratio above "
+          messages.push_back(constant_path(material, &laws::LawEntry::compressibility)
+                             + ": with a Poisson ratio above "
                              + text_of(locking_nu[scene.degree - 1])
                              + (scene.degree == 1 ? " linear" : " quadratic")
                              + " elements lock in displacement form: they are too stiff on coarse "

@@ -3,8 +3,6 @@
 #include "require.h"
 #include "values.h"
 
-#include "tetradapt/laws/law_catalogue.h"
-
 #include <algorithm>
 
 namespace tetradapt::scene
@@ -22,14 +20,6 @@ namespace tetradapt::scene
     modulus(const MaterialParameters &material)
     {
       return material.moduli_at_rest().young_modulus;
-    }
-
-    /** The parameter to change for another stiffness. */
-    std::string
-    place(const MaterialParameters &material)
-    {
-      return "Materials/" + material.name + "/"
-             + laws::find_law(material.law).constants.front().name;
     }
 
     std::pair<const MaterialParameters *, const MaterialParameters *>
@@ -50,6 +40,12 @@ namespace tetradapt::scene
     }
   } // namespace
 
+  std::string
+  constant_path(const MaterialParameters &material, std::string laws::LawEntry::*const constant)
+  {
+    return "Materials/" + material.name + "/" + laws::find_law(material.law).*constant;
+  }
+
   void
   check_stiffness(const Scene &scene)
   {
@@ -57,13 +53,13 @@ namespace tetradapt::scene
     for (const auto &material : scene.materials)
       mistakes.require(modulus(material) >= smallest_modulus
                          && modulus(material) <= largest_modulus,
-                       place(material),
+                       constant_path(material, &laws::LawEntry::stiffness),
                        "it is " + text_of(modulus(material)) + "; " + text_of(smallest_modulus)
                          + " to " + text_of(largest_modulus)
                          + " can be computed with. Choose another unit of stress.");
     const auto [soft, stiff] = softest_and_stiffest(scene);
     mistakes.require(modulus(*stiff) <= largest_contrast * modulus(*soft),
-                     place(*stiff),
+                     constant_path(*stiff, &laws::LawEntry::stiffness),
                      contrast_message(*soft, *stiff)
                        + "rounding in the stiff part would spoil the soft one. Lower it (a "
                          "contrast of 1e6 is practically rigid), or leave the stiff part out and "
@@ -79,7 +75,8 @@ namespace tetradapt::scene
     const auto [soft, stiff] = softest_and_stiffest(scene);
     if (!(modulus(*stiff) > doubtful_contrast * modulus(*soft)))
       return "";
-    return place(*stiff) + ": " + contrast_message(*soft, *stiff)
+    return constant_path(*stiff, &laws::LawEntry::stiffness) + ": "
+           + contrast_message(*soft, *stiff)
            + "rounding in the stiff part leaves only some digits in the soft one. A contrast of "
              "1e6 is practically rigid.";
   }

@@ -27,6 +27,8 @@ namespace tetradapt::laws
     std::string           name; ///< as users write it
     std::string           documentation;
     std::vector<Constant> constants;
+    /** Names of the constants to change for another stiffness and for another Poisson ratio. */
+    std::string stiffness, compressibility;
     /** Makes the law from values for all its constants. */
     std::function<std::unique_ptr<ConstitutiveLaw>(const Constants &)> make;
   };
