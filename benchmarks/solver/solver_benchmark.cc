@@ -130,18 +130,18 @@ namespace
 
   /** Of the assembled matrix; in single precision; and matrix-free in double and single. */
   std::array<double, 4>
-  times_of_products(const scene::Scene           &scene,
-                    const mechanics::MaterialMap &materials,
-                    const mesh::TetMesh          &body,
-                    unsigned int                  degree)
+  times_of_products(const scene::Scene                         &scene,
+                    const mechanics::MaterialMap               &materials,
+                    const std::shared_ptr<const mesh::TetMesh> &body,
+                    unsigned int                                degree)
   {
-    const fem::Triangulation      triangulation(body, MPI_COMM_WORLD);
-    const mechanics::TangentField tangents(materials, body);
-    const mesh::EdgeTable         edges = mesh::build_edges(body);
-    const fem::Space              space(triangulation, degree, &edges);
+    const auto triangulation = std::make_shared<const fem::Triangulation>(body, MPI_COMM_WORLD);
+    const mechanics::TangentField tangents(materials, *body);
+    const mesh::EdgeTable         edges = mesh::build_edges(*body);
+    const fem::Space              space(triangulation, degree);
     const fem::FixedUnknowns      fixed(
       space,
-      mechanics::make_constraints(mechanics::prescribe(scene.supports, body, &edges), space));
+      mechanics::make_constraints(mechanics::prescribe(scene.supports, *body, &edges), space));
     const auto  system = mechanics::assemble(space, tangents, fixed);
     const auto &matrix = system.matrix;
 
@@ -189,7 +189,7 @@ namespace
     system.reset();
     std::array<double, 4> products{};
     if (argument(6, 0.) > 0.)
-      products = times_of_products(scene, materials, *body, degree);
+      products = times_of_products(scene, materials, body, degree);
     const double product = products[0];
     if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       std::cout << "degree,unknowns,iterations,set_up_cpu,solve_cpu,set_up_wall,solve_wall,"

@@ -45,7 +45,7 @@ namespace tetradapt::adapt
       const compare::ExcludedRegion &excluded = comparison.excluded_region();
       if (excluded.empty())
         return;
-      excluded.clear(comparison.displacement().mesh(), estimate.indicators);
+      excluded.clear(comparison.mesh(), estimate.indicators);
       if (traits.is_energy_norm && !traits.needs_reference && !traits.needs_exact_displacement
           && !estimate.indicators.empty())
         estimate.global = compare::root_of_squares(estimate.indicators);
@@ -92,7 +92,7 @@ namespace tetradapt::adapt
                      std::vector<double>             &indicators)
     {
       const std::vector<double> oscillations
-        = estimate::load_oscillations(*cycle.solution.displacement,
+        = estimate::load_oscillations(cycle.comparison.displacement(),
                                       sources.scene,
                                       cycle.comparison.material_map(),
                                       cycle.comparison.mpi_communicator());
@@ -189,8 +189,7 @@ namespace tetradapt::adapt
           {
             indicators = estimate.indicators;
             add_oscillations(sources, cycle, estimator->traits(), record, indicators);
-            cycle.comparison.excluded_region().continue_into(cycle.comparison.displacement().mesh(),
-                                                             indicators);
+            cycle.comparison.excluded_region().continue_into(cycle.comparison.mesh(), indicators);
           }
         if (estimate.missing)
           continue;

@@ -68,12 +68,12 @@ namespace tetradapt::adapt
     }
 
     Doubt
-    doubt_of_thickness(const mesh::NodalField &displacement, MPI_Comm communicator)
+    doubt_of_thickness(const fem::Field &displacement)
     {
       const std::vector<bool> thin = mesh::thin_parts(displacement.mesh());
       if (std::find(thin.begin(), thin.end(), true) == thin.end())
         return {};
-      const compare::Bending bending = compare::bending(displacement, thin, communicator);
+      const compare::Bending bending = compare::bending(displacement, thin);
       if (bending.strain < enough_strain || bending.slenderness < slender)
         return {};
       return {"linear elements lock: " + percent(bending.volume)
@@ -84,9 +84,7 @@ namespace tetradapt::adapt
   } // namespace
 
   std::vector<Doubt>
-  doubts_about(const mesh::NodalField &displacement,
-               const scene::Scene     &scene,
-               MPI_Comm                communicator)
+  doubts_about(const fem::Field &displacement, const scene::Scene &scene)
   {
     std::vector<Doubt> doubts;
     const auto         add = [&doubts](const Doubt &doubt) {
@@ -94,9 +92,9 @@ namespace tetradapt::adapt
         doubts.push_back(doubt);
     };
     if (scene.formulation != scene::Formulation::finite_strain)
-      add(doubt_of_linearity(compare::deformation(displacement, communicator)));
+      add(doubt_of_linearity(compare::deformation(displacement)));
     if (displacement.degree() == 1)
-      add(doubt_of_thickness(displacement, communicator));
+      add(doubt_of_thickness(displacement));
     return doubts;
   }
 } // namespace tetradapt::adapt

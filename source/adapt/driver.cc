@@ -37,16 +37,6 @@ namespace tetradapt::adapt
     /** Energies, of which roots and squares are taken, that are within the range of
      * double precision with room for both. */
     constexpr double smallest_energy = 1e-200, largest_energy = 1e200;
-
-    double
-    largest_norm(const std::vector<dealii::Tensor<1, 3>> &values)
-    {
-      // Not by squares, which vanish for very small displacements.
-      double largest = 0.;
-      for (const auto &value : values)
-        largest = std::max(largest, std::hypot(value[0], value[1], value[2]));
-      return largest;
-    }
   } // namespace
 
   Driver::Driver(const scene::Scene            &scene,
@@ -112,7 +102,7 @@ namespace tetradapt::adapt
       }
     warn_of_flat_cells();
     check_placement(scene, mesh, log);
-    start.reset();
+    before.reset();
     expect_error(0.);
     log.info((number == 0 ? "Mesh: " : "Mesh " + std::to_string(number) + ": ")
              + describe_mesh(*mesh, current.record));
@@ -195,7 +185,8 @@ namespace tetradapt::adapt
         stop.algebraic_error = solver_error(scene.solver.solver_error_fraction);
       system = std::make_shared<solve::StaticSystem>(
         scene, *materials, mesh, scene.degree, communicator, in_cycle(number));
-      cycle.solution = system->solve(start.get(), stop);
+      const auto start = make_start(*system);
+      cycle.solution   = system->solve(start.get(), stop);
       // The energy is 2 F - a without displacements that are prescribed: StaticSolution.
       cycle.energy = {system->is_driven_by_loads()
                         ? -0.5 * cycle.solution.energy
@@ -208,7 +199,7 @@ namespace tetradapt::adapt
     cycle.record.energy           = cycle.solution.energy;
     cycle.record.strain_energy    = cycle.solution.strain_energy;
     cycle.record.spring_energy    = cycle.solution.spring_energy;
-    cycle.record.max_displacement = largest_norm(cycle.solution.displacement->values);
+    cycle.record.max_displacement = cycle.solution.displacement->largest_norm();
     cycle.record.iterations       = cycle.solution.iterations;
     if (cycle.solution.iterations > 0)
       {
@@ -224,7 +215,7 @@ namespace tetradapt::adapt
       log.detail(line);
     {
       const auto scope = timer.scope("estimate");
-      doubts           = doubts_about(*cycle.solution.displacement, scene, communicator);
+      doubts           = doubts_about(*cycle.solution.displacement, scene);
       for (const Doubt &doubt : doubts_about_loads(cycle.record))
         doubts.push_back(doubt);
       for (const Doubt &doubt : doubts)
@@ -233,7 +224,7 @@ namespace tetradapt::adapt
     {
       const auto        scope = timer.scope("reactions");
       const std::string warning
-        = describe_solution(*system, cycle.solution, *materials, communicator, cycle.record);
+        = describe_solution(*system, cycle.solution, *materials, cycle.record);
       if (!warning.empty())
         log.warning(warning);
       for (const auto &text : reaction_warnings(cycle.record))
@@ -242,14 +233,15 @@ namespace tetradapt::adapt
     if (keeps_system)
       cycle.solution.system = system;
     system.reset();
-    cycle.solution.norm = norm_outside(
-      *cycle.solution.displacement, *materials, excluded, cycle.solution.norm, communicator);
-    cycle.comparison = std::make_unique<estimate::Comparison>(cycle.solution.displacement,
+    cycle.comparison    = std::make_shared<estimate::Comparison>(cycle.solution.displacement,
                                                               *materials,
                                                               scene.exact_solution,
                                                               sampling,
                                                               communicator,
                                                               excluded);
+    cycle.solution.norm = norm_outside(*cycle.comparison, cycle.solution.norm);
+    if (plan.needs(Plan::vtu_output))
+      cycle.comparison->displacement(); // the first rank alone could not get it when it writes
     return cycle;
   }
 
@@ -326,8 +318,11 @@ namespace tetradapt::adapt
     std::vector<double> sizes;
     if (plan.needs(Plan::size_field_output))
       sizes = obtained_sizes(*mesh);
+    const mesh::NodalField *displacement
+      = plan.needs(Plan::vtu_output) ? &cycle.comparison->displacement() : nullptr;
     const CycleEvent event{cycle.record,
-                           *cycle.solution.displacement,
+                           *mesh,
+                           displacement,
                            *materials,
                            cycle.indicators.empty() ? nullptr : &cycle.indicators,
                            ren,

@@ -41,11 +41,6 @@ namespace tetradapt::adapt
                : by_number;
     }
 
-    const mesh::EdgeTable *
-    edges_of(const mesh::NodalField &field)
-    {
-      return field.degree() == 2 ? &field.edges() : nullptr;
-    }
   } // namespace
 
   void
@@ -70,10 +65,14 @@ namespace tetradapt::adapt
     else
       decision = next_mesh(*accepted);
     // What a rejection needs, and no more.
-    if (is_tested)
-      accepted->comparison.reset();
-    else
+    if (!is_tested)
       accepted.reset();
+    else
+      {
+        accepted->solution.displacement.reset();
+        if (before == nullptr)
+          accepted->comparison->reduce_to_displacement();
+      }
     return decision;
   }
 
@@ -107,7 +106,7 @@ namespace tetradapt::adapt
   {
     {
       const auto scope = timer.scope("mesh");
-      use(mesh_maker.uniform(*mesh, edges_of(*cycle.solution.displacement)));
+      use(mesh_maker.uniform(*mesh, cycle.comparison->edges()));
     }
     predicted_reduction = 0.;
     predict_error(cycle.record, std::pow(0.5, scene.degree));
@@ -126,10 +125,7 @@ namespace tetradapt::adapt
     options.reduction_power         = reduction_power;
     if (!more)
       options.tolerance = cycle.wanted_indicator_norm;
-    return optimal_size_field(*mesh,
-                              cycle.indicators,
-                              options,
-                              edges_of(*cycle.solution.displacement));
+    return optimal_size_field(*mesh, cycle.indicators, options, cycle.comparison->edges());
   }
 
   void
@@ -141,7 +137,7 @@ namespace tetradapt::adapt
     predicted_from                        = compare::root_of_squares(cycle.indicators);
     if (from_scratch)
       {
-        const mesh::EdgeTable *edges = edges_of(*cycle.solution.displacement);
+        const mesh::EdgeTable *edges = cycle.comparison->edges();
         use(mesh_maker.made_from_scratch(
           *mesh, sizes, locator, edges != nullptr ? *edges : mesh::build_edges(*mesh)));
       }
@@ -216,14 +212,8 @@ namespace tetradapt::adapt
   StopDecision
   Driver::mark_rejected(Cycle &cycle)
   {
-    // The solution of the last accepted cycle is still there.
-    mesh                    = cycle.solution.displacement->shared_mesh();
-    cycle.comparison        = std::make_unique<estimate::Comparison>(cycle.solution.displacement,
-                                                              *materials,
-                                                              scene.exact_solution,
-                                                              sampling,
-                                                              communicator,
-                                                              excluded);
+    // The displacement of the last accepted cycle is still there.
+    mesh                    = cycle.comparison->shared_mesh();
     const std::string where = "Back to the " + std::to_string(mesh->n_cells())
                               + " tetrahedra of cycle " + std::to_string(cycle.record.cycle) + ", ";
     if (n_rejected == 1)
@@ -240,13 +230,25 @@ namespace tetradapt::adapt
   }
 
   void
-  Driver::prepare_start(Cycle &cycle)
+  Driver::prepare_start(const Cycle &cycle)
   {
     // A small linear system is factorised, without a first iterate.
-    const auto scope = timer.scope("estimate");
-    start.reset();
     if (plan.needs(Plan::multigrid_solver) || plan.needs(Plan::newton_method))
-      start = std::make_unique<mesh::NodalField>(
-        compare::interpolate(*cycle.solution.displacement, cycle.comparison->locator(), mesh));
+      before = cycle.comparison;
+  }
+
+  std::shared_ptr<const fem::Field>
+  Driver::make_start(const solve::StaticSystem &system)
+  {
+    if (before == nullptr)
+      return nullptr;
+    auto start = compare::interpolate(before->displacement(),
+                                      before->locator(),
+                                      system.space(),
+                                      system.pressure_space());
+    // An accepted cycle may still have it, in case that the new mesh is rejected.
+    before->reduce_to_displacement();
+    before.reset();
+    return start;
   }
 } // namespace tetradapt::adapt

@@ -85,19 +85,19 @@ namespace tetradapt::adapt
   }
 
   mechanics::EnergyNorm
-  norm_outside(const mesh::NodalField        &displacement,
-               const mechanics::MaterialMap  &materials,
-               const compare::ExcludedRegion &excluded,
-               const mechanics::EnergyNorm   &whole,
-               const MPI_Comm                 communicator)
+  norm_outside(estimate::Comparison &comparison, const mechanics::EnergyNorm &whole)
   {
-    if (excluded.empty())
+    if (comparison.excluded_region().empty())
       return whole;
     // Shares nothing: the sampling does not outlive this call.
-    const std::shared_ptr<const mesh::NodalField> borrowed(std::shared_ptr<void>(), &displacement);
+    const std::shared_ptr<const mesh::NodalField> borrowed(std::shared_ptr<void>(),
+                                                           &comparison.displacement());
     mechanics::EnergyNorm                         norm = whole;
-    norm.value
-      = compare::ReferenceSampling(borrowed, materials, communicator, excluded).energy_norm();
+    norm.value                                         = compare::ReferenceSampling(borrowed,
+                                            comparison.material_map(),
+                                            comparison.mpi_communicator(),
+                                            comparison.excluded_region())
+                   .energy_norm();
     return norm;
   }
 } // namespace tetradapt::adapt

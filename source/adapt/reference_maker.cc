@@ -8,6 +8,7 @@
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/on_first_rank.h"
 #include "tetradapt/estimate/recovery/recovery.h"
+#include "tetradapt/fem/replication.h"
 #include "tetradapt/io/vtu_reader.h"
 #include "tetradapt/mesh/mesh_broadcast.h"
 #include "tetradapt/solve/energies.h"
@@ -78,15 +79,16 @@ namespace tetradapt::adapt
       });
       const auto solution
         = solve::solve_static(scene, materials, mesh, scene.reference.degree, communicator, log);
-      Reference reference;
-      reference.displacement.tetrahedra = solution.displacement;
+      Reference  reference;
+      const auto displacement           = fem::replicate(*solution.displacement);
+      reference.displacement.tetrahedra = displacement;
       reference.energy                  = solution.energy;
       log.progress("reference: estimating its error");
       reference.estimated_error
-        = own_error(*solution.displacement, materials, communicator, &scene, excluded);
+        = own_error(*displacement, materials, communicator, &scene, excluded);
       const Route route = scene.reference.route;
       reference.description
-        = describe(*solution.displacement,
+        = describe(*displacement,
                    route == Route::refine   ? "refined from the initial mesh"
                    : route == Route::bricks ? "bricks"
                                             : "mesh of " + scene.reference.file);
@@ -113,9 +115,10 @@ namespace tetradapt::adapt
       });
       compare::broadcast(run, communicator);
       Reference reference;
-      reference.displacement    = compare::displacement_of(std::move(run));
-      const auto &field         = *reference.displacement.tetrahedra;
-      reference.energy          = solve::compute_energies(field, materials, communicator).energy;
+      reference.displacement = compare::displacement_of(std::move(run));
+      const auto &field      = *reference.displacement.tetrahedra;
+      reference.energy
+        = solve::compute_energies(*fem::distribute(field, communicator), materials).energy;
       reference.estimated_error = own_error(field, materials, communicator, nullptr, excluded);
       reference.description     = describe(field, "read from " + file);
       return reference;

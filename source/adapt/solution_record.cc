@@ -9,12 +9,10 @@ namespace tetradapt::adapt
   describe_solution(const solve::StaticSystem    &system,
                     const solve::StaticSolution  &solution,
                     const mechanics::MaterialMap &materials,
-                    const MPI_Comm                communicator,
                     CycleRecord                  &record)
   {
-    record.regions
-      = mechanics::compute_region_figures(*solution.displacement, materials, communicator);
-    record.equilibrium                    = system.equilibrium(solution, record.regions);
+    record.regions     = mechanics::compute_region_figures(*solution.displacement, materials);
+    record.equilibrium = system.equilibrium(solution, record.regions);
     const solve::Equilibrium &equilibrium = *record.equilibrium;
     if (equilibrium.is_balanced())
       return "";

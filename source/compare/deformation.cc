@@ -3,10 +3,12 @@
 
 #include "tetradapt/compare/parallel.h"
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tetradapt::compare
 {
@@ -15,21 +17,24 @@ namespace tetradapt::compare
     using dealii::SymmetricTensor;
     using dealii::Tensor;
 
-    /** du_i/dx_j in the centre of a cell. Node k of degree 1 or 2 enters with dN_k/db_i. */
+    /** du_i/dx_j in the centre of the k-th of the touching cells. Node k of degree 1 or 2 enters
+     * with dN_k/db_i. */
     Tensor<2, 3>
-    central_gradient(const mesh::NodalField &u, const unsigned int cell)
+    central_gradient(const fem::Field &u, const unsigned int k)
     {
-      const auto   g = mesh::barycentric_gradients(u.mesh(), cell);
-      Tensor<2, 3> gradient;
+      const auto g = mesh::barycentric_gradients(u.mesh(), u.space().touching_cells()[k]);
+      std::array<Tensor<1, 3>, 10> values;
+      Tensor<2, 3>                 gradient;
+      u.values_of_cell(k, values);
       // In the centre 4 b - 1 is zero and 4 b is one.
       if (u.degree() == 1)
         for (unsigned int i = 0; i < 4; ++i)
-          gradient += outer_product(u.values[u.node(cell, i)], g[i]);
+          gradient += outer_product(values[i], g[i]);
       else
         for (unsigned int e = 0; e < 6; ++e)
           {
             const auto &[i, j] = mesh::edge_vertices[e];
-            gradient += outer_product(u.values[u.node(cell, 4 + e)], g[i] + g[j]);
+            gradient += outer_product(values[4 + e], g[i] + g[j]);
           }
       return gradient;
     }
@@ -47,29 +52,48 @@ namespace tetradapt::compare
       return result;
     }
 
-    /** Diagonal of the box of @p values, which are points or displacements. */
-    template <typename Values>
+    /** Which of the touching cells are the rank's own. */
+    std::vector<unsigned int>
+    own_cells(const fem::Space &space)
+    {
+      std::vector<unsigned int> result;
+      for (unsigned int k = 0; k < space.touching_cells().size(); ++k)
+        if (space.is_own_cell(k))
+          result.push_back(k);
+      return result;
+    }
+
+    /** The length of a box's diagonal. */
     double
-    diagonal(const Values &values)
+    diagonal(const Tensor<1, 3> &extent)
     {
       double square = 0., largest = 0.;
-      double extent[3];
       for (unsigned int d = 0; d < 3; ++d)
-        {
-          double lower = values[0][d], upper = values[0][d];
-          for (const auto &value : values)
-            {
-              lower = std::min(lower, value[d]);
-              upper = std::max(upper, value[d]);
-            }
-          extent[d] = upper - lower;
-          largest   = std::max(largest, extent[d]);
-        }
+        largest = std::max(largest, extent[d]);
       if (!(largest > 0.))
         return 0.;
-      for (const double e : extent) // squares of very small numbers would vanish
-        square += e / largest * (e / largest);
+      for (unsigned int d = 0; d < 3; ++d) // squares of very small numbers would vanish
+        square += extent[d] / largest * (extent[d] / largest);
       return largest * std::sqrt(square);
+    }
+
+    /** The extent of the box of all displacements. Collective. */
+    Tensor<1, 3>
+    extent(const fem::Field &u)
+    {
+      constexpr double    huge = std::numeric_limits<double>::max();
+      std::vector<double> largest(6, -huge); // of u and of -u: a rank may have no node
+      for (unsigned int node = 0; node < u.space().n_owned_nodes(); ++node)
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            largest[d]     = std::max(largest[d], u.value(node)[d]);
+            largest[3 + d] = std::max(largest[3 + d], -u.value(node)[d]);
+          }
+      dealii::Utilities::MPI::max(largest, u.space().communicator(), largest);
+      Tensor<1, 3> result;
+      for (unsigned int d = 0; d < 3; ++d)
+        result[d] = largest[d] + largest[3 + d];
+      return result;
     }
 
     double
@@ -81,19 +105,21 @@ namespace tetradapt::compare
   } // namespace
 
   Deformation
-  deformation(const mesh::NodalField &u_h, MPI_Comm communicator)
+  deformation(const fem::Field &u_h)
   {
-    const mesh::TetMesh &mesh  = u_h.mesh();
-    const Slice          slice = own_slice(mesh.n_cells(), communicator);
+    const fem::Space    &space = u_h.space();
+    const mesh::TetMesh &mesh  = space.tet_mesh();
+    const auto           cells = own_cells(space);
+    const auto           box   = mesh::bounding_box(mesh);
     Deformation          result;
-    const double         body          = diagonal(mesh.points);
-    result.displacement                = body > 0. ? diagonal(u_h.values) / body : 0.;
+    const double         body          = diagonal(box.second - box.first);
+    result.displacement                = body > 0. ? diagonal(extent(u_h)) / body : 0.;
     double              largest_square = 0.;
     std::vector<double> sums(3, 0.); // strained, rotated and all of the volume
-    for (unsigned int cell = slice.begin; cell < slice.end; ++cell)
+    for (const unsigned int k : cells)
       {
-        const Tensor<2, 3>          G        = central_gradient(u_h, cell);
-        const double                volume   = mesh::cell_volume(mesh, cell);
+        const Tensor<2, 3>          G        = central_gradient(u_h, k);
+        const double                volume   = mesh::cell_volume(mesh, space.touching_cells()[k]);
         const double                rotation = rotation_of(G).norm();
         const SymmetricTensor<2, 3> strain   = symmetrize(G);
         const double                square   = strain * strain;
@@ -108,28 +134,29 @@ namespace tetradapt::compare
         largest_square         = std::max(largest_square, square);
         result.strain          = std::max(result.strain, principal);
       }
-    for (unsigned int cell = slice.begin; result.strain > Deformation::limit && cell < slice.end;
-         ++cell)
-      if (largest_principal(symmetrize(central_gradient(u_h, cell))) > Deformation::limit)
-        sums[0] += mesh::cell_volume(mesh, cell);
-    sum_over_ranks(sums, communicator);
-    result.strain        = max_over_ranks(result.strain, communicator);
-    result.rotation      = max_over_ranks(result.rotation, communicator);
+    if (result.strain > Deformation::limit)
+      for (const unsigned int k : cells)
+        if (largest_principal(symmetrize(central_gradient(u_h, k))) > Deformation::limit)
+          sums[0] += mesh::cell_volume(mesh, space.touching_cells()[k]);
+    sum_over_ranks(sums, space.communicator());
+    result.strain        = max_over_ranks(result.strain, space.communicator());
+    result.rotation      = max_over_ranks(result.rotation, space.communicator());
     result.strained_part = sums[0] / sums[2];
     result.rotated_part  = sums[1] / sums[2];
     return result;
   }
 
   Bending
-  bending(const mesh::NodalField &u_h, const std::vector<bool> &cells, MPI_Comm communicator)
+  bending(const fem::Field &u_h, const std::vector<bool> &cells)
   {
-    const mesh::TetMesh &mesh  = u_h.mesh();
-    const Slice          slice = own_slice(mesh.n_cells(), communicator);
+    const fem::Space    &space = u_h.space();
+    const mesh::TetMesh &mesh  = space.tet_mesh();
     // Volume and squared strain of all; volume, squared strain, rotation and its square of some.
     std::vector<double> sums(8, 0.);
-    for (unsigned int cell = slice.begin; cell < slice.end; ++cell)
+    for (const unsigned int k : own_cells(space))
       {
-        const Tensor<2, 3>          G      = central_gradient(u_h, cell);
+        const unsigned int          cell   = space.touching_cells()[k];
+        const Tensor<2, 3>          G      = central_gradient(u_h, k);
         const double                volume = mesh::cell_volume(mesh, cell);
         const SymmetricTensor<2, 3> strain = symmetrize(G);
         const Tensor<1, 3>          w      = rotation_of(G);
@@ -143,7 +170,7 @@ namespace tetradapt::compare
         for (unsigned int d = 0; d < 3; ++d)
           sums[5 + d] += volume * w[d];
       }
-    sum_over_ranks(sums, communicator);
+    sum_over_ranks(sums, space.communicator());
     Bending result;
     if (!(sums[3] > 0.) || !(sums[0] > 0.))
       return result;

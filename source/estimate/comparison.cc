@@ -2,18 +2,31 @@
 #include "tetradapt/estimate/comparison.h"
 
 #include "tetradapt/core/exceptions.h"
+#include "tetradapt/fem/replication.h"
 
 namespace tetradapt::estimate
 {
-  Comparison::Comparison(std::shared_ptr<const mesh::NodalField>           displacement,
+  Comparison::Comparison(std::shared_ptr<const fem::Field>                 displacement,
                          const mechanics::MaterialMap                     &materials,
                          const scene::ExactSolutionParameters             &exact_solution,
                          std::shared_ptr<const compare::ReferenceSampling> sampling,
                          const MPI_Comm                                    communicator,
                          compare::ExcludedRegion                           excluded)
-    : u_h(std::move(displacement)), materials(materials), exact_solution(exact_solution),
-      sampling(std::move(sampling)), communicator(communicator), excluded(std::move(excluded))
+    : distributed(std::move(displacement)), body(distributed->space().shared_mesh()),
+      edge_table(distributed->degree() == 2 ? distributed->space().shared_edges() : nullptr),
+      materials(materials), exact_solution(exact_solution), sampling(std::move(sampling)),
+      communicator(communicator), excluded(std::move(excluded))
   {
+  }
+
+
+
+  const mesh::NodalField &
+  Comparison::displacement()
+  {
+    if (replicated == nullptr)
+      replicated = fem::replicate(*distributed);
+    return *replicated;
   }
 
 
@@ -35,9 +48,10 @@ namespace tetradapt::estimate
     if (!reference_difference)
       {
         require_reference();
-        reference_difference = sampling->hexahedra() != nullptr
-                                 ? compare::difference_to_hexahedra(*u_h, *sampling)
-                                 : compare::difference_to_reference(*u_h, locator(), *sampling);
+        reference_difference
+          = sampling->hexahedra() != nullptr
+              ? compare::difference_to_hexahedra(displacement(), *sampling)
+              : compare::difference_to_reference(displacement(), locator(), *sampling);
       }
     return *reference_difference;
   }
@@ -53,8 +67,8 @@ namespace tetradapt::estimate
           throw core::InputError(
             "A comparison with the exact solution is needed, but the scene gives none. Set Exact "
             "solution/Displacement, or choose another Adaptivity/Refinement indicator.");
-        true_difference
-          = compare::difference_to_exact(*u_h, exact_solution, materials, communicator, excluded);
+        true_difference = compare::difference_to_exact(
+          displacement(), exact_solution, materials, communicator, excluded);
       }
     return *true_difference;
   }
@@ -67,7 +81,7 @@ namespace tetradapt::estimate
     if (!has_exact_displacement())
       return ren_to_reference();
     if (!true_ren)
-      true_ren = compare::nodal_ren(*u_h, exact_solution, communicator, excluded);
+      true_ren = compare::nodal_ren(displacement(), exact_solution, communicator, excluded);
     return *true_ren;
   }
 
@@ -79,7 +93,7 @@ namespace tetradapt::estimate
     if (!reference_ren)
       {
         require_reference();
-        reference_ren = compare::nodal_ren(*u_h, *sampling);
+        reference_ren = compare::nodal_ren(displacement(), *sampling);
       }
     return *reference_ren;
   }
@@ -90,7 +104,21 @@ namespace tetradapt::estimate
   Comparison::locator()
   {
     if (own_locator == nullptr)
-      own_locator = std::make_unique<compare::PointLocator>(u_h->shared_mesh());
+      own_locator = std::make_unique<compare::PointLocator>(body);
     return *own_locator;
+  }
+
+
+
+  void
+  Comparison::reduce_to_displacement()
+  {
+    displacement();
+    distributed.reset();
+    own_locator.reset();
+    reference_difference.reset();
+    true_difference.reset();
+    reference_ren.reset();
+    true_ren.reset();
   }
 } // namespace tetradapt::estimate

@@ -29,10 +29,7 @@ namespace tetradapt::estimate
   Estimate
   DegreeExtrapolation::estimate(const EstimateInput &input) const
   {
-    const EnrichedProblem       problem(input.scene,
-                                  input.comparison.material_map(),
-                                  input.solution,
-                                  input.comparison.mpi_communicator());
+    const EnrichedProblem       problem(input);
     const EnrichedSpace::Values supported  = problem.supported_solution();
     EnrichedProblem::Correction correction = problem.solve(problem.residual(supported), tolerance);
     // What the supports prescribe beyond the solution's degree is part of the difference.

@@ -4,6 +4,7 @@
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/estimate/enriched/enriched_problem.h"
 #include "tetradapt/estimate/goal_functional.h"
+#include "tetradapt/fem/replication.h"
 
 #include <algorithm>
 #include <cmath>
@@ -118,15 +119,12 @@ namespace tetradapt::estimate
   Estimate
   GoalOriented::estimate(const EstimateInput &input) const
   {
-    const EnrichedProblem problem(input.scene,
-                                  input.comparison.material_map(),
-                                  input.solution,
-                                  input.comparison.mpi_communicator());
+    const EnrichedProblem problem(input);
     const EnrichedSpace  &space = problem.space();
     const std::size_t     nodal = 3 * static_cast<std::size_t>(space.n_nodes()), all = space.size();
 
     const auto goal_forces = put_on_mesh(chosen_goal(input.scene),
-                                         *input.solution.displacement,
+                                         input.comparison.displacement(),
                                          input.comparison,
                                          &space.surplus())
                                .forces;
@@ -134,8 +132,11 @@ namespace tetradapt::estimate
     solve::StaticSystem::Stop stop;
     if (input.scene.solver.stopping == scene::SolverParameters::Stopping::discretisation)
       stop.relative_error = dual_accuracy;
-    const auto   z   = input.solution.system->solve_dual(nodal_part(goal, space.n_nodes()), stop);
-    const Values z_h = space.embed(z->values);
+    const solve::StaticSystem &system = *input.solution.system;
+    const auto                 z
+      = system.solve_dual(fem::distribute(*system.space(), nodal_part(goal, space.n_nodes())),
+                          stop);
+    const Values z_h = space.embed(fem::replicate(z->space(), z->vector()));
     Values       dual_residual;
     space.multiply(z_h, dual_residual);
     dual_residual.sadd(-1., 1., goal);

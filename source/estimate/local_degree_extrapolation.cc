@@ -273,12 +273,9 @@ namespace tetradapt::estimate
   Estimate
   LocalDegreeExtrapolation::estimate(const EstimateInput &input) const
   {
-    const mesh::NodalField       &u_h       = *input.solution.displacement;
+    const mesh::NodalField       &u_h       = input.comparison.displacement();
     const mechanics::MaterialMap &materials = input.comparison.material_map();
-    const EnrichedProblem         problem(input.scene,
-                                  materials,
-                                  input.solution,
-                                  input.comparison.mpi_communicator());
+    const EnrichedProblem         problem(input);
     const EnrichedSpace          &space = problem.space();
 
     DiagonalBlocks blocks(space, u_h, CellMaterials(materials, u_h.mesh()));

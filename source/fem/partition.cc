@@ -71,14 +71,14 @@ namespace tetradapt::fem
     }
   } // namespace
 
-  Partition::Partition(const mesh::TetMesh &mesh, MPI_Comm communicator)
-    : tet_mesh(mesh), mpi_communicator(communicator),
+  Partition::Partition(std::shared_ptr<const mesh::TetMesh> mesh_pointer, MPI_Comm communicator)
+    : tet_mesh(std::move(mesh_pointer)), mpi_communicator(communicator),
       rank_count(dealii::Utilities::MPI::n_mpi_processes(communicator))
   {
-    const auto centroids = cell_centroids(mesh);
-    const auto box       = mesh::bounding_box(mesh);
+    const auto centroids = cell_centroids(*tet_mesh);
+    const auto box       = mesh::bounding_box(*tet_mesh);
     cell_order           = mesh::SpaceCurve(box.first, box.second).order(centroids);
-    firsts               = {0, mesh.n_cells()};
+    firsts               = {0, tet_mesh->n_cells()};
     if (rank_count == 1)
       return;
     std::vector<unsigned int> cells = cell_order, owners(cells.size());

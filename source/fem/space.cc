@@ -25,12 +25,14 @@ namespace tetradapt::fem
     constexpr unsigned int invalid = dealii::numbers::invalid_unsigned_int;
   }
 
-  Space::Space(const Triangulation   &triangulation,
-               const unsigned int     degree,
-               const mesh::EdgeTable *edges)
-    : Space(triangulation, edges, degree)
+  Space::Space(std::shared_ptr<const Triangulation>   triangulation,
+               const unsigned int                     degree,
+               std::shared_ptr<const mesh::EdgeTable> edge_table)
+    : Space(std::move(triangulation), std::move(edge_table), degree)
   {
     AssertThrow(degree == 1 || degree == 2, dealii::ExcNotImplemented());
+    if (degree == 2 && edges == nullptr)
+      edges = std::make_shared<const mesh::EdgeTable>(mesh::build_edges(mesh));
     // Local numbers, and MPI's counts, are signed in places.
     const std::uint64_t n_unknowns
       = 3 * (std::uint64_t(mesh.n_points()) + (degree == 2 ? edges->edges.size() : 0));
@@ -39,18 +41,18 @@ namespace tetradapt::fem
                                  + " unknowns, more than the "
                                  + std::to_string(std::numeric_limits<std::int32_t>::max())
                                  + " that can be numbered. Use a coarser mesh.");
-    handler = std::make_unique<dealii::DoFHandler<3>>(triangulation);
+    handler = std::make_unique<dealii::DoFHandler<3>>(*body);
     handler->distribute_dofs(dealii::FESystem<3>(dealii::FE_SimplexP<3>(degree), 3));
     std::vector<global_dof_index> nodes;
     list_cells(nodes);
     number_locally(handler->locally_owned_dofs(), nodes);
   }
 
-  Space::Space(const Triangulation   &triangulation,
-               const mesh::EdgeTable *edges,
-               const unsigned int     degree)
-    : body(triangulation), mesh(triangulation.tet_mesh()),
-      mpi_communicator(triangulation.partition().communicator()), edges(edges),
+  Space::Space(std::shared_ptr<const Triangulation>   triangulation,
+               std::shared_ptr<const mesh::EdgeTable> edges,
+               const unsigned int                     degree)
+    : body(std::move(triangulation)), mesh(body->tet_mesh()),
+      mpi_communicator(body->partition().communicator()), edges(std::move(edges)),
       polynomial_degree(degree)
   {
   }
@@ -73,8 +75,8 @@ namespace tetradapt::fem
     const IndexSet               &owned   = handler->locally_owned_dofs();
     const unsigned int            n_nodes = n_nodes_per_cell();
     std::vector<global_dof_index> dofs(3 * n_nodes);
-    cells.reserve(body.n_active_cells());
-    nodes.reserve(std::size_t(body.n_active_cells()) * n_nodes);
+    cells.reserve(body->n_active_cells());
+    nodes.reserve(std::size_t(body->n_active_cells()) * n_nodes);
     for (const auto &cell : handler->active_cell_iterators())
       {
         if (cell->is_artificial())
@@ -83,7 +85,7 @@ namespace tetradapt::fem
         if (cell->is_ghost()
             && std::none_of(dofs.begin(), dofs.end(), [&](auto i) { return owned.is_element(i); }))
           continue;
-        cells.push_back(body.mesh_cell(cell->index()));
+        cells.push_back(body->mesh_cell(cell->index()));
         is_ghost.push_back(cell->is_ghost());
         for (unsigned int i = 0; i < n_nodes; ++i)
           nodes.push_back(dofs[3 * i] / 3);
@@ -165,18 +167,19 @@ namespace tetradapt::fem
         }
   }
 
-  void
-  Space::gather(const Vector &vector, std::vector<dealii::Tensor<1, 3>> &field) const
+  const std::shared_ptr<const mesh::TetMesh> &
+  Space::shared_mesh() const
   {
-    field.assign(n_field_nodes(), dealii::Tensor<1, 3>());
-    for (unsigned int l = 0; l < n_owned; ++l)
-      for (unsigned int c = 0; c < 3; ++c)
-        field[field_nodes[l]][c] = vector.local_element(3 * l + c);
-    if (partitioner->n_mpi_processes() > 1)
-      {
-        static_assert(sizeof(dealii::Tensor<1, 3>) == 3 * sizeof(double));
-        MPI_Allreduce(
-          MPI_IN_PLACE, field.data(), 3 * field.size(), MPI_DOUBLE, MPI_SUM, communicator());
-      }
+    return body->shared_mesh();
+  }
+
+  dealii::Point<3>
+  Space::node_position(const unsigned int local_node) const
+  {
+    const unsigned int node = field_nodes[local_node];
+    if (node < mesh.n_points())
+      return mesh.points[node];
+    const auto &edge = edges->edges[node - mesh.n_points()];
+    return mesh.points[edge[0]] + 0.5 * (mesh.points[edge[1]] - mesh.points[edge[0]]);
   }
 } // namespace tetradapt::fem

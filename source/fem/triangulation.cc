@@ -52,8 +52,9 @@ namespace tetradapt::fem
     };
   } // namespace
 
-  Triangulation::Triangulation(const mesh::TetMesh &mesh, const MPI_Comm communicator)
-    : DistributedTriangulationBase<3>(communicator), cell_partition(mesh, communicator)
+  Triangulation::Triangulation(std::shared_ptr<const mesh::TetMesh> mesh,
+                               const MPI_Comm                       communicator)
+    : DistributedTriangulationBase<3>(communicator), cell_partition(std::move(mesh), communicator)
   {
     choose_cells();
     create();

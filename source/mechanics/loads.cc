@@ -14,6 +14,7 @@ namespace tetradapt::mechanics
 {
   namespace
   {
+    /** One a local node; only those of owned nodes are complete. */
     using Forces = std::vector<Tensor<1, 3>>;
 
     /** Shape functions of a triangle of degree 1 or 2 at barycentric coordinates; with one
@@ -46,22 +47,24 @@ namespace tetradapt::mechanics
       }
 
       NodalLoads
-      all(const mesh::NodalField *deformation)
+      all(const fem::Field *deformation)
       {
         NodalLoads result;
-        result.forces.resize(space.n_field_nodes());
+        Forces     sum_of_all(space.n_local_nodes());
         for (unsigned int number = 0; number < scene.loads.size(); ++number)
           {
             LoadTotal total;
             if (scene.loads[number].type != scene::LoadType::temperature)
               {
-                forces.assign(space.n_field_nodes(), Tensor<1, 3>());
+                forces.assign(space.n_local_nodes(), Tensor<1, 3>());
                 add(number, total);
                 for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
                   {
-                    const unsigned int field_node = space.field_node(node);
-                    result.forces[field_node] += forces[field_node];
-                    total.resultant.add(position(field_node, deformation), forces[field_node]);
+                    sum_of_all[node] += forces[node];
+                    Point<3> x = space.node_position(node);
+                    if (deformation != nullptr)
+                      x += deformation->value(node);
+                    total.resultant.add(x, forces[node]);
                   }
                 total.resultant = sum(total.resultant, space.communicator());
               }
@@ -71,7 +74,7 @@ namespace tetradapt::mechanics
         if (materials.has_thermal_strain())
           {
             LoadTotal thermal;
-            add_thermal_load(result.forces, thermal);
+            add_thermal_load(sum_of_all, thermal);
             for (unsigned int number = 0; number < scene.loads.size(); ++number)
               if (scene.loads[number].type == scene::LoadType::temperature)
                 {
@@ -80,6 +83,10 @@ namespace tetradapt::mechanics
                   result.totals[number].remark    = thermal.remark;
                 }
           }
+        result.forces.reinit(space.vector_layout());
+        for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
+          for (unsigned int c = 0; c < 3; ++c)
+            result.forces.local_element(3 * node + c) = sum_of_all[node][c];
         return result;
       }
 
@@ -98,7 +105,7 @@ namespace tetradapt::mechanics
             add_node_load(scene.loads[number]);
             break;
           case scene::LoadType::point_force:
-            add_point_force(scene.loads[number], mesh, forces);
+            add_point_load(scene.loads[number]);
             break;
           case scene::LoadType::body_force:
           case scene::LoadType::gravity:
@@ -110,6 +117,17 @@ namespace tetradapt::mechanics
           }
       }
 
+      /** Where this rank has the node. */
+      void
+      add_at(const unsigned int field_node, const Tensor<1, 3> &force)
+      {
+        const unsigned int node = space.local_node(field_node);
+        if (node != dealii::numbers::invalid_unsigned_int)
+          forces[node] += force;
+      }
+
+      /** Every rank looks at all faces, so that each knows the load's total and what is to be
+       * remarked of it. */
       void
       add_face_load(const unsigned int number, LoadTotal &total)
       {
@@ -131,7 +149,7 @@ namespace tetradapt::mechanics
                 total.magnitude += force.norm();
                 const auto N = face_shapes(space.degree(), point.b, samples.size());
                 for (unsigned int i = 0; i < n_nodes; ++i)
-                  forces[face_nodes[f][i]] += N[i] * force;
+                  add_at(face_nodes[f][i], N[i] * force);
               }
           }
         total.remark = surface_loads.remark(number);
@@ -156,14 +174,14 @@ namespace tetradapt::mechanics
           }
         for (unsigned int point = 0; point < mesh.n_points(); ++point)
           if (loaded[point])
-            forces[point] += value(mesh.points[point]);
+            add_at(point, value(mesh.points[point]));
       }
 
-      /** Whether a cell counts here in sums over all ranks. */
-      bool
-      is_mine(const unsigned int cell) const
+      void
+      add_point_load(const scene::LoadParameters &load)
       {
-        return space.local_node(mesh.cells[cell][0]) < space.n_owned_nodes();
+        const auto [vertex, force] = point_force(load, mesh);
+        add_at(vertex, force);
       }
 
       void
@@ -179,13 +197,14 @@ namespace tetradapt::mechanics
         density.look_at(mesh); // on every rank, for the remark
         VolumeDensity::Samples samples;
         std::array<double, 10> N{};
-        for (const unsigned int cell : space.touching_cells())
+        for (unsigned int k = 0; k < space.touching_cells().size(); ++k)
           {
+            const unsigned int cell = space.touching_cells()[k];
             if (!density.acts_in(mesh.regions[cell]))
               continue;
             const double volume = mesh::cell_volume(mesh, cell);
             const double error  = density.sample_compactly(mesh, cell, samples);
-            const bool   mine   = is_mine(cell);
+            const bool   mine   = space.is_own_cell(k);
             total.remainder += mine ? volume * error : 0.;
             for (const auto &point : samples)
               {
@@ -196,7 +215,7 @@ namespace tetradapt::mechanics
                 else
                   mesh::shape_values(space.degree(), point.b, N.data());
                 for (unsigned int i = 0; i < space.n_nodes_per_cell(); ++i)
-                  forces[space.cell_node(cell, i)] += N[i] * force;
+                  forces[space.local_nodes_of(k)[i]] += N[i] * force;
               }
           }
         add_up(total);
@@ -219,15 +238,16 @@ namespace tetradapt::mechanics
         density.look_at(mesh);
         VolumeDensity::Samples       samples;
         std::array<Tensor<1, 3>, 10> gradients;
-        for (const unsigned int cell : space.touching_cells())
+        for (unsigned int k = 0; k < space.touching_cells().size(); ++k)
           {
-            const int region = mesh.regions[cell];
+            const unsigned int cell   = space.touching_cells()[k];
+            const int          region = mesh.regions[cell];
             if (!density.acts_in(region))
               continue;
             const double volume     = mesh::cell_volume(mesh, cell);
             const auto   directions = mesh::barycentric_gradients(mesh, cell);
             const double error      = density.sample_compactly(mesh, cell, samples);
-            const bool   mine       = is_mine(cell);
+            const bool   mine       = space.is_own_cell(k);
             total.remainder += mine ? volume * error : 0.;
             for (const auto &point : samples)
               {
@@ -238,22 +258,12 @@ namespace tetradapt::mechanics
                 // Gradients are linear: their means are the values at the centroid.
                 mesh::shape_gradients(space.degree(), point.b, directions, gradients.data());
                 for (unsigned int i = 0; i < space.n_nodes_per_cell(); ++i)
-                  all[space.cell_node(cell, i)] += volume * point.weight * (stress * gradients[i]);
+                  all[space.local_nodes_of(k)[i]]
+                    += volume * point.weight * (stress * gradients[i]);
               }
           }
         add_up(total);
         total.remark = density.remark();
-      }
-
-      Point<3>
-      position(const unsigned int node, const mesh::NodalField *deformation) const
-      {
-        if (deformation != nullptr)
-          return deformation->node_position(node) + deformation->values[node];
-        if (node < mesh.n_points())
-          return mesh.points[node];
-        const auto &edge = space.edge_table()->edges[node - mesh.n_points()];
-        return mesh.points[edge[0]] + 0.5 * (mesh.points[edge[1]] - mesh.points[edge[0]]);
       }
 
       const scene::Scene  &scene;
@@ -268,10 +278,10 @@ namespace tetradapt::mechanics
   } // namespace
 
   NodalLoads
-  assemble_loads(const scene::Scene     &scene,
-                 const MaterialMap      &materials,
-                 const fem::Space       &space,
-                 const mesh::NodalField *deformation)
+  assemble_loads(const scene::Scene &scene,
+                 const MaterialMap  &materials,
+                 const fem::Space   &space,
+                 const fem::Field   *deformation)
   {
     return Assembly(scene, materials, space).all(deformation);
   }

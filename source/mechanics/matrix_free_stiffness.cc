@@ -257,8 +257,7 @@ namespace tetradapt::mechanics
 
   template <typename Number>
   VectorOf<Number>
-  MatrixFreeStiffness<Number>::right_hand_side(
-    const std::vector<dealii::Tensor<1, 3>> &forces) const
+  MatrixFreeStiffness<Number>::right_hand_side(const Vector &forces) const
   {
     VectorOf<Number> b(space.vector_layout());
     if (!fixed.is_homogeneous())
@@ -278,7 +277,7 @@ namespace tetradapt::mechanics
         {
           Number &value = b.local_element(3 * node + c);
           value = fixed.is_fixed(node, c) ? Number(diagonal[node][4 * c] * fixed.value(node, c))
-                                          : Number(forces[space.field_node(node)][c]) - value;
+                                          : Number(forces.local_element(3 * node + c)) - value;
         }
     for (const fem::InclinedNode &inclined : fixed.inclined())
       if (inclined.node < space.n_owned_nodes())

@@ -28,13 +28,12 @@ namespace tetradapt::mechanics
     }
   } // namespace
 
-  void
-  add_point_force(const scene::LoadParameters       &load,
-                  const mesh::TetMesh               &mesh,
-                  std::vector<dealii::Tensor<1, 3>> &forces)
+  std::pair<unsigned int, dealii::Tensor<1, 3>>
+  point_force(const scene::LoadParameters &load, const mesh::TetMesh &mesh)
   {
-    const auto vertices = mesh::vertices_of(mesh, place_of(mesh, "Loads/" + load.name));
-    forces[vertices.front()] += force_of(load, mesh.points[vertices.front()]);
+    const unsigned int vertex
+      = mesh::vertices_of(mesh, place_of(mesh, "Loads/" + load.name)).front();
+    return {vertex, force_of(load, mesh.points[vertex])};
   }
 
   std::vector<unsigned int>
@@ -66,10 +65,9 @@ namespace tetradapt::mechanics
       {
         if (load.type != scene::LoadType::point_force)
           continue;
-        const std::string  name   = "Loads/" + load.name;
-        const unsigned int vertex = mesh::vertices_of(mesh, place_of(mesh, name)).front();
-        const auto         force  = force_of(load, mesh.points[vertex]);
-        unsigned int       n_held = 0, n = 0;
+        const std::string name     = "Loads/" + load.name;
+        const auto [vertex, force] = point_force(load, mesh);
+        unsigned int n_held = 0, n = 0;
         for (unsigned int c = 0; c < 3; ++c)
           if (force[c] != 0.)
             {

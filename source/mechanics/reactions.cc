@@ -18,24 +18,23 @@ namespace tetradapt::mechanics
     class SupportedCells
     {
     public:
-      SupportedCells(const fem::Space             &space,
-                     const MaterialMap            &materials,
+      SupportedCells(const MaterialMap            &materials,
                      const PrescribedDisplacement &prescribed,
-                     const mesh::NodalField       &displacement,
+                     const fem::Field             &displacement,
                      const bool                    with_layer_energy)
-        : space(space), materials(materials), prescribed(prescribed), displacement(displacement),
-          with_layer_energy(with_layer_energy), points(stiffness_points(space.degree())),
-          forces(space.n_owned_nodes())
+        : space(displacement.space()), materials(materials), prescribed(prescribed),
+          displacement(displacement), with_layer_energy(with_layer_energy),
+          points(stiffness_points(space.degree())), forces(space.n_owned_nodes())
       {
-        for (const unsigned int cell : space.touching_cells())
-          if (is_supported(cell))
-            add(cell);
+        for (unsigned int k = 0; k < space.touching_cells().size(); ++k)
+          if (is_supported(space.touching_cells()[k]))
+            add(k);
       }
 
       const fem::Space              &space;
       const MaterialMap             &materials;
       const PrescribedDisplacement  &prescribed;
-      const mesh::NodalField        &displacement;
+      const fem::Field              &displacement;
       bool                           with_layer_energy;
       std::vector<mesh::Barycentric> points;
       std::vector<Tensor<1, 3>>      forces; ///< of the stress, right at owned nodes that are held
@@ -52,27 +51,31 @@ namespace tetradapt::mechanics
         });
       }
 
+      /** The k-th of the cells that touch owned nodes. */
       void
-      add(const unsigned int cell)
+      add(const unsigned int k)
       {
+        const unsigned int           cell             = space.touching_cells()[k];
+        const unsigned int          *nodes            = space.local_nodes_of(k);
         const mesh::TetMesh         &mesh             = space.tet_mesh();
         const unsigned int           n_nodes          = space.n_nodes_per_cell();
         const auto                   lambda_gradients = mesh::barycentric_gradients(mesh, cell);
         const double                 weight = mesh::cell_volume(mesh, cell) / points.size();
-        const bool                   counts = with_layer_energy && is_owned(mesh.cells[cell][0]);
-        std::array<Tensor<1, 3>, 10> gradients;
+        const bool                   counts = with_layer_energy && space.is_own_cell(k);
+        std::array<Tensor<1, 3>, 10> gradients, values;
+        displacement.values_of_cell(k, values);
         for (const mesh::Barycentric &point : points)
           {
             mesh::shape_gradients(space.degree(), point, lambda_gradients, gradients.data());
             Tensor<2, 3> G;
             for (unsigned int i = 0; i < n_nodes; ++i)
-              G += outer_product(displacement.values[space.cell_node(cell, i)], gradients[i]);
+              G += outer_product(values[i], gradients[i]);
             const SymmetricTensor<2, 3> stress = stress_at(cell, point, G);
             for (unsigned int i = 0; i < n_nodes; ++i)
               {
-                const unsigned int node = space.cell_node(cell, i);
-                if (prescribed.fixed[node] != 0 && is_owned(node))
-                  forces[space.local_node(node)] += weight * (stress * gradients[i]);
+                if (nodes[i] < space.n_owned_nodes()
+                    && prescribed.fixed[space.field_node(nodes[i])] != 0)
+                  forces[nodes[i]] += weight * (stress * gradients[i]);
               }
             if (counts)
               add_layer_energy(cell, gradients, weight);
@@ -96,8 +99,8 @@ namespace tetradapt::mechanics
             const int                   region = space.tet_mesh().regions[cell];
             layer_energy[c]
               += weight
-                 * (displacement.pressure ? materials.pressure_form(region).stress(G, 0.) * strain
-                                          : materials.linear_law(region).energy_density(strain));
+                 * (displacement.pressure() ? materials.pressure_form(region).stress(G, 0.) * strain
+                                            : materials.linear_law(region).energy_density(strain));
           }
       }
 
@@ -122,18 +125,20 @@ namespace tetradapt::mechanics
                 const Tensor<2, 3>      &G) const
       {
         const int region = space.tet_mesh().regions[cell];
-        return displacement.pressure
-                 ? materials.pressure_form(region).stress(G,
-                                                          displacement.pressure->value(cell, point))
-                 : materials.linear_law(region).stress(G);
-      }
-
-      bool
-      is_owned(const unsigned int node) const
-      {
-        return space.local_node(node) < space.n_owned_nodes();
+        return displacement.pressure() ? materials.pressure_form(region).stress(
+                 G, displacement.pressure()->value(cell, point))
+                                       : materials.linear_law(region).stress(G);
       }
     };
+
+    Tensor<1, 3>
+    at_node(const fem::Vector &vector, const unsigned int node)
+    {
+      Tensor<1, 3> value;
+      for (unsigned int c = 0; c < 3; ++c)
+        value[c] = vector.local_element(3 * node + c);
+      return value;
+    }
 
     /** What the supports among @p begin to @p end take of the reaction at a node that slides: each
      * along its own directions, the sum of the squares by their areas as small as possible. */
@@ -196,19 +201,21 @@ namespace tetradapt::mechanics
   } // namespace
 
   Reactions
-  compute_reactions(const fem::Space                        &space,
-                    const MaterialMap                       &materials,
-                    const PrescribedDisplacement            &prescribed,
-                    const std::vector<dealii::Tensor<1, 3>> &forces,
-                    const std::vector<dealii::Tensor<1, 3>> *internal_forces,
-                    const mesh::NodalField                  &displacement,
-                    const unsigned int                       n_supports,
-                    const bool                               with_layer_energy)
+  compute_reactions(const MaterialMap            &materials,
+                    const PrescribedDisplacement &prescribed,
+                    const fem::Vector            &forces,
+                    const fem::Vector            *internal_forces,
+                    const fem::Field             &displacement,
+                    const unsigned int            n_supports,
+                    const bool                    with_layer_energy)
   {
+    const fem::Space                     &space = displacement.space();
     std::unique_ptr<const SupportedCells> cells;
     if (internal_forces == nullptr)
-      cells = std::make_unique<const SupportedCells>(
-        space, materials, prescribed, displacement, with_layer_energy);
+      cells = std::make_unique<const SupportedCells>(materials,
+                                                     prescribed,
+                                                     displacement,
+                                                     with_layer_energy);
     std::vector<HeldNode> held;
     std::copy_if(prescribed.held_nodes.begin(),
                  prescribed.held_nodes.end(),
@@ -227,18 +234,17 @@ namespace tetradapt::mechanics
       ++result.n_nodes[h.support];
     for (auto begin = held.cbegin(); begin != held.cend();)
       {
-        const unsigned int node = begin->node;
+        const unsigned int node = begin->node, local = space.local_node(node);
         const auto         end
           = std::find_if(begin, held.cend(), [&](const HeldNode &h) { return h.node != node; });
-        Tensor<1, 3> reaction
-          = (cells ? cells->forces[space.local_node(node)] : (*internal_forces)[node])
-            - forces[node];
+        Tensor<1, 3> reaction = (cells ? cells->forces[local] : at_node(*internal_forces, local))
+                                - at_node(forces, local);
         if (prescribed.fixed[node] != PrescribedDisplacement::is_coupled)
           reaction -= prescribed.free_part(node, reaction);
         result.magnitude += reaction.norm();
-        Point<3> x = displacement.node_position(node);
+        Point<3> x = space.node_position(local);
         if (internal_forces != nullptr)
-          x += displacement.values[node];
+          x += displacement.value(local);
         if (std::any_of(begin, end, slides))
           {
             const auto parts = shares(begin, end, reaction);

@@ -50,18 +50,17 @@ namespace tetradapt::mechanics
      * since the gradients of barycentric coordinates sum to zero, three of them suffice.
      */
     std::array<Tensor<2, 3>, 4>
-    corner_gradients(const mesh::NodalField            &u,
-                     const unsigned int                 cell,
-                     const std::array<Tensor<1, 3>, 4> &directions)
+    corner_gradients(const std::array<Tensor<1, 3>, 10> &u,
+                     const std::array<Tensor<1, 3>, 4>  &directions)
     {
       // Of the vertices on the diagonal, of the edges next to it.
       std::array<std::array<Tensor<1, 3>, 4>, 4> values;
       for (unsigned int i = 0; i < 4; ++i)
-        values[i][i] = u.values[u.node(cell, i)];
+        values[i][i] = u[i];
       for (unsigned int e = 0; e < 6; ++e)
         {
           const auto &[i, j] = mesh::edge_vertices[e];
-          values[i][j] = values[j][i] = u.values[u.node(cell, 4 + e)];
+          values[i][j] = values[j][i] = u[4 + e];
         }
       Tensor<2, 3> of_vertices;
       for (unsigned int j = 1; j < 4; ++j)
@@ -89,26 +88,29 @@ namespace tetradapt::mechanics
     class Stresses
     {
     public:
-      Stresses(const mesh::NodalField &u, const MaterialMap &materials)
+      Stresses(const fem::Field &u, const MaterialMap &materials)
         : u(u), materials(materials), thermal(materials.has_thermal_strain())
       {
       }
 
-      /** The largest von Mises stress of @p cell, and the corner that has it; 4: all. */
+      /** The largest von Mises stress of the k-th of the touching cells, and the corner that has
+       * it; 4: all. */
       std::pair<double, unsigned int>
-      largest(const unsigned int cell)
+      largest(const unsigned int k)
       {
+        const unsigned int cell = u.space().touching_cells()[k];
+        u.values_of_cell(k, values_of_nodes);
         enter(u.mesh().regions[cell]);
         const auto directions = mesh::barycentric_gradients(u.mesh(), cell);
         if (u.degree() == 1)
           {
             Tensor<2, 3> G;
             for (unsigned int i = 0; i < 4; ++i)
-              G += outer_product(u.values[u.mesh().cells[cell][i]], directions[i]);
+              G += outer_product(values_of_nodes[i], directions[i]);
             return {von_mises(stress(thermal ? G - Tensor<2, 3>(mean_thermal_strain(cell)) : G)),
                     4};
           }
-        auto                  gradients = corner_gradients(u, cell, directions);
+        auto                  gradients = corner_gradients(values_of_nodes, directions);
         std::array<double, 4> values; // squares first: one root a cell is enough
         for (unsigned int v = 0; v < 4; ++v)
           {
@@ -149,7 +151,7 @@ namespace tetradapt::mechanics
         region = number;
         law    = &materials.law(region);
         linear = materials.is_linear() ? &materials.linear_law(region) : nullptr;
-        mixed  = u.pressure != nullptr;
+        mixed  = u.pressure() != nullptr;
         if (linear != nullptr)
           form = mixed ? materials.pressure_form(region) : linear->pressure_form();
       }
@@ -198,13 +200,14 @@ namespace tetradapt::mechanics
         return mean;
       }
 
-      const mesh::NodalField     &u;
-      const MaterialMap          &materials;
-      bool                        thermal, mixed = false;
-      int                         region = 0;
-      const ConstitutiveLaw      *law    = nullptr;
-      const LinearLaw            *linear = nullptr; ///< the same; null for another law
-      std::optional<PressureForm> form;             ///< of the law, if it has one
+      const fem::Field            &u;
+      const MaterialMap           &materials;
+      std::array<Tensor<1, 3>, 10> values_of_nodes; ///< of a cell
+      bool                         thermal, mixed = false;
+      int                          region = 0;
+      const ConstitutiveLaw       *law    = nullptr;
+      const LinearLaw             *linear = nullptr; ///< the same; null for another law
+      std::optional<PressureForm>  form;             ///< of the law, if it has one
     };
 
     /** Numbers the regions of a mesh from 0. */
@@ -276,18 +279,20 @@ namespace tetradapt::mechanics
       return places;
     }
 
+    /** Of the displacements, one a local node. */
     std::vector<double>
-    lengths(const std::vector<Tensor<1, 3>> &values)
+    lengths(const fem::Field &u)
     {
-      std::vector<double> result;
-      result.reserve(values.size());
+      std::vector<double> result(u.space().n_local_nodes());
       // Not by squares, which vanish for very small displacements.
       double scale = 0.;
-      for (const auto &value : values)
+      for (unsigned int node = 0; node < result.size(); ++node)
         for (unsigned int c = 0; c < 3; ++c)
-          scale = std::max(scale, std::abs(value[c]));
-      for (const auto &value : values)
-        result.push_back(scale > 0. ? scale * (value / scale).norm() : 0.);
+          scale = std::max(scale, std::abs(u.value(node)[c]));
+      // The same on any number of ranks.
+      scale = dealii::Utilities::MPI::max(scale, u.space().communicator());
+      for (unsigned int node = 0; node < result.size(); ++node)
+        result[node] = scale > 0. ? scale * (u.value(node) / scale).norm() : 0.;
       return result;
     }
 
@@ -295,13 +300,13 @@ namespace tetradapt::mechanics
     class Search
     {
     public:
-      Search(const mesh::NodalField &u, const MaterialMap &materials, const MPI_Comm communicator)
-        : u(u), mesh(u.mesh()), communicator(communicator), numbers(mesh.regions)
+      Search(const fem::Field &u, const MaterialMap &materials)
+        : u(u), space(u.space()), mesh(u.mesh()), communicator(space.communicator()),
+          numbers(mesh.regions)
       {
-        const unsigned long n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
-        const unsigned long rank    = dealii::Utilities::MPI::this_mpi_process(communicator);
-        begin                       = mesh.n_cells() * rank / n_ranks;
-        end                         = mesh.n_cells() * (rank + 1) / n_ranks;
+        for (unsigned int k = 0; k < space.touching_cells().size(); ++k)
+          if (space.is_own_cell(k))
+            own_cells.push_back(k);
         for (const auto &[region, number] : numbers.all())
           {
             RegionFigures figures;
@@ -310,7 +315,7 @@ namespace tetradapt::mechanics
               figures.name = name->second;
             result.push_back(figures);
           }
-        displacement = lengths(u.values);
+        displacement = lengths(u);
         measure(materials);
         find_places();
         for (RegionFigures &figures : result)
@@ -324,19 +329,20 @@ namespace tetradapt::mechanics
       measure(const MaterialMap &materials)
       {
         Stresses           stresses(u, materials);
-        const unsigned int n_nodes = u.n_nodes_per_cell();
-        stress.reserve(end - begin);
-        displacement_of_cell.reserve(end - begin);
-        for (unsigned int cell = begin; cell < end; ++cell)
+        const unsigned int n_nodes = space.n_nodes_per_cell();
+        stress.reserve(own_cells.size());
+        displacement_of_cell.reserve(own_cells.size());
+        for (const unsigned int k : own_cells)
           {
-            RegionFigures &figures = result[numbers(mesh.regions[cell])];
+            const unsigned int cell    = space.touching_cells()[k];
+            RegionFigures     &figures = result[numbers(mesh.regions[cell])];
             ++figures.n_cells;
             figures.volume += mesh::cell_volume(mesh, cell);
-            stress.push_back(stresses.largest(cell));
+            stress.push_back(stresses.largest(k));
             figures.von_mises.value = std::max(figures.von_mises.value, stress.back().first);
             double most             = 0.;
             for (unsigned int i = 0; i < n_nodes; ++i)
-              most = std::max(most, displacement[u.node(cell, i)]);
+              most = std::max(most, displacement[space.local_nodes_of(k)[i]]);
             displacement_of_cell.push_back(most);
             figures.displacement.value = std::max(figures.displacement.value, most);
           }
@@ -354,20 +360,22 @@ namespace tetradapt::mechanics
       find_places()
       {
         std::vector<Candidate> stressed(result.size()), displaced(result.size());
-        for (unsigned int cell = begin; cell < end; ++cell)
+        for (unsigned int c = 0; c < own_cells.size(); ++c)
           {
+            const unsigned int   k       = own_cells[c];
+            const unsigned int   cell    = space.touching_cells()[k];
             const unsigned int   number  = numbers(mesh.regions[cell]);
             const RegionFigures &figures = result[number];
-            const auto &[value, corner]  = stress[cell - begin];
+            const auto &[value, corner]  = stress[c];
             if (value >= (1. - alike) * figures.von_mises.value)
               stressed[number].offer(corner < 4 ? mesh.points[mesh.cells[cell][corner]]
                                                 : centroid(cell));
             const double least = (1. - alike) * figures.displacement.value;
-            if (!(displacement_of_cell[cell - begin] >= least))
+            if (!(displacement_of_cell[c] >= least))
               continue;
-            for (unsigned int i = 0; i < u.n_nodes_per_cell(); ++i)
-              if (displacement[u.node(cell, i)] >= least)
-                displaced[number].offer(u.node_position(u.node(cell, i)));
+            for (unsigned int i = 0; i < space.n_nodes_per_cell(); ++i)
+              if (displacement[space.local_nodes_of(k)[i]] >= least)
+                displaced[number].offer(space.node_position(space.local_nodes_of(k)[i]));
           }
         const auto most_stressed  = first_of_ranks(stressed, communicator);
         const auto most_displaced = first_of_ranks(displaced, communicator);
@@ -387,22 +395,21 @@ namespace tetradapt::mechanics
         return x;
       }
 
-      const mesh::NodalField                      &u;
+      const fem::Field                            &u;
+      const fem::Space                            &space;
       const mesh::TetMesh                         &mesh;
       MPI_Comm                                     communicator;
       RegionNumbers                                numbers;
-      unsigned int                                 begin = 0, end = 0;
-      std::vector<double>                          displacement;         ///< lengths, one a node
+      std::vector<unsigned int>                    own_cells;    ///< among the touching ones
+      std::vector<double>                          displacement; ///< lengths, one a local node
       std::vector<double>                          displacement_of_cell; ///< largest, rank's cells
       std::vector<std::pair<double, unsigned int>> stress;               ///< of the rank's cells
     };
   } // namespace
 
   std::vector<RegionFigures>
-  compute_region_figures(const mesh::NodalField &displacement,
-                         const MaterialMap      &materials,
-                         const MPI_Comm          communicator)
+  compute_region_figures(const fem::Field &displacement, const MaterialMap &materials)
   {
-    return Search(displacement, materials, communicator).result;
+    return Search(displacement, materials).result;
   }
 } // namespace tetradapt::mechanics

@@ -103,20 +103,27 @@ namespace tetradapt::mechanics
   }
 
   RigidMotion
-  RigidCoupling::motion_of(const std::vector<Tensor<1, 3>> &field) const
+  RigidCoupling::motion_of(const fem::Field &field) const
   {
-    RigidMotion motion = values;
-    for (const RigidMotion &column : basis)
+    if (basis.empty())
+      return values;
+    const fem::Space   &space = field.space();
+    std::vector<double> factors(basis.size(), 0.);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
       {
-        double factor = 0.;
-        for (std::size_t i = 0; i < nodes.size(); ++i)
-          {
-            const Tensor<1, 3> r = positions[i] - reference;
-            factor += displacement(column, r) * (field[nodes[i]] - displacement(values, r));
-          }
-        for (unsigned int k = 0; k < 6; ++k)
-          motion[k] += factor * column[k];
+        const unsigned int node = space.local_node(nodes[i]);
+        if (node >= space.n_owned_nodes())
+          continue;
+        const Tensor<1, 3> r    = positions[i] - reference;
+        const Tensor<1, 3> more = field.value(node) - displacement(values, r);
+        for (unsigned int k = 0; k < basis.size(); ++k)
+          factors[k] += displacement(basis[k], r) * more;
       }
+    dealii::Utilities::MPI::sum(factors, space.communicator(), factors);
+    RigidMotion motion = values;
+    for (unsigned int k = 0; k < basis.size(); ++k)
+      for (unsigned int i = 0; i < 6; ++i)
+        motion[i] += factors[k] * basis[k][i];
     return motion;
   }
 

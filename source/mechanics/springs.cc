@@ -9,6 +9,7 @@
 #include "tetradapt/mesh/finalize.h"
 #include "tetradapt/mesh/true_surface.h"
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
 
 #include <algorithm>
@@ -253,33 +254,65 @@ namespace tetradapt::mechanics
   }
 
   SpringForces
-  spring_forces(const Springs &springs, const mesh::NodalField &displacement)
+  spring_forces(const Springs &springs, const fem::Field &displacement)
   {
     SpringForces result;
     result.supports.resize(springs.n_supports());
     if (springs.empty())
       return result;
-    const mesh::TetMesh &mesh = displacement.mesh();
-    const unsigned int   n    = displacement.degree() == 1 ? 3 : 6;
-    const auto           nodes
-      = boundary_face_nodes(mesh, displacement.degree() == 1 ? nullptr : &displacement.edges());
-    result.nodal.resize(displacement.n_nodes());
-    double N[6];
+    const fem::Space    &space = displacement.space();
+    const mesh::TetMesh &mesh  = space.tet_mesh();
+    const unsigned int   n     = space.degree() == 1 ? 3 : 6;
+    const auto           field_nodes
+      = boundary_face_nodes(mesh, space.degree() == 1 ? nullptr : space.edge_table());
+    result.nodal.reinit(space.vector_layout());
+    std::array<unsigned int, 6> nodes{};
+    std::array<Tensor<1, 3>, 6> values;
+    double                      N[6];
     for (const Springs::Face &face : springs.faces())
-      for (const Springs::Sample &point : face.points)
-        {
-          face_shape_values(displacement.degree(), point.b, N);
-          Tensor<1, 3> u;
-          for (unsigned int i = 0; i < n; ++i)
-            u += N[i] * displacement.values[nodes[face.face][i]];
-          const Tensor<1, 3> force = point.weight * point.traction(u);
-          for (unsigned int i = 0; i < n; ++i)
-            result.nodal[nodes[face.face][i]] += N[i] * force;
-          result.supports[face.support].add(position(mesh, mesh.faces[face.face], point.b), force);
-          result.energy += 0.5 * (force * (point.ground - u));
-        }
-    for (const auto &force : result.nodal)
-      result.magnitude += force.norm();
+      {
+        bool has_own = false;
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            nodes[i] = space.local_node(field_nodes[face.face][i]);
+            has_own  = has_own || nodes[i] < space.n_owned_nodes();
+          }
+        if (!has_own)
+          continue;
+        // The face's cell touches a node of this rank, so that all of them are here.
+        for (unsigned int i = 0; i < n; ++i)
+          values[i] = displacement.value(nodes[i]);
+        const bool counts = nodes[0] < space.n_owned_nodes(); // on one rank only
+        for (const Springs::Sample &point : face.points)
+          {
+            face_shape_values(space.degree(), point.b, N);
+            Tensor<1, 3> u;
+            for (unsigned int i = 0; i < n; ++i)
+              u += N[i] * values[i];
+            const Tensor<1, 3> force = point.weight * point.traction(u);
+            for (unsigned int i = 0; i < n; ++i)
+              if (nodes[i] < space.n_owned_nodes())
+                for (unsigned int c = 0; c < 3; ++c)
+                  result.nodal.local_element(3 * nodes[i] + c) += N[i] * force[c];
+            if (!counts)
+              continue;
+            result.supports[face.support].add(position(mesh, mesh.faces[face.face], point.b),
+                                              force);
+            result.energy += 0.5 * (force * (point.ground - u));
+          }
+      }
+    for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
+      {
+        Tensor<1, 3> force;
+        for (unsigned int c = 0; c < 3; ++c)
+          force[c] = result.nodal.local_element(3 * node + c);
+        result.magnitude += force.norm();
+      }
+    const MPI_Comm communicator = space.communicator();
+    for (Resultant &support : result.supports)
+      support = sum(support, communicator);
+    result.magnitude = dealii::Utilities::MPI::sum(result.magnitude, communicator);
+    result.energy    = dealii::Utilities::MPI::sum(result.energy, communicator);
     return result;
   }
 

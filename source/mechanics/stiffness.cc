@@ -291,21 +291,20 @@ namespace tetradapt::mechanics
   }
 
   Vector
-  right_hand_side(const LinearSystem              &system,
-                  const fem::Space                &space,
-                  const fem::FixedUnknowns        &fixed,
-                  const std::vector<Tensor<1, 3>> &forces)
+  right_hand_side(const LinearSystem       &system,
+                  const fem::Space         &space,
+                  const fem::FixedUnknowns &fixed,
+                  const Vector             &forces)
   {
     Vector b(space.vector_layout());
     for (unsigned int row = 0; row < space.n_owned_nodes(); ++row)
       {
-        const unsigned int node     = space.field_node(row);
-        const auto        &diagonal = system.matrix.block(system.matrix.row_begin(row));
+        const auto &diagonal = system.matrix.block(system.matrix.row_begin(row));
         for (unsigned int c = 0; c < 3; ++c)
           b.local_element(3 * row + c)
-            = fixed.is_fixed(row, c)
-                ? diagonal[4 * c] * fixed.value(row, c)
-                : forces[node][c] - system.prescribed_forces.local_element(3 * row + c);
+            = fixed.is_fixed(row, c) ? diagonal[4 * c] * fixed.value(row, c)
+                                     : forces.local_element(3 * row + c)
+                                         - system.prescribed_forces.local_element(3 * row + c);
       }
     for (const fem::InclinedNode &inclined : fixed.inclined())
       if (inclined.node < space.n_owned_nodes())

@@ -506,7 +506,8 @@ namespace tetradapt::mechanics
   void
   add_rigid_forces(const std::vector<scene::SupportParameters> &supports,
                    const PrescribedDisplacement                &prescribed,
-                   std::vector<Tensor<1, 3>>                   &forces)
+                   const fem::Space                            &space,
+                   fem::Vector                                 &forces)
   {
     for (const RigidCoupling &coupling : prescribed.rigid)
       {
@@ -515,7 +516,10 @@ namespace tetradapt::mechanics
           continue;
         const auto nodal = coupling.nodal_forces(force, moment);
         for (std::size_t i = 0; i < nodal.size(); ++i)
-          forces[coupling.nodes[i]] += nodal[i];
+          if (const unsigned int node = space.local_node(coupling.nodes[i]);
+              node < space.n_owned_nodes())
+            for (unsigned int c = 0; c < 3; ++c)
+              forces.local_element(3 * node + c) += nodal[i][c];
       }
   }
 } // namespace tetradapt::mechanics

@@ -36,7 +36,12 @@ namespace tetradapt::mesh
   }
 
   PressureField::PressureField(const TetMesh &mesh)
-    : nodes(std::make_shared<const PressureNodes>(mesh)), values(nodes->size(), 0.)
+    : PressureField(std::make_shared<const PressureNodes>(mesh))
+  {
+  }
+
+  PressureField::PressureField(std::shared_ptr<const PressureNodes> shared_nodes)
+    : nodes(std::move(shared_nodes)), values(nodes->size(), 0.)
   {
   }
 } // namespace tetradapt::mesh

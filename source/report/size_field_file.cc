@@ -14,7 +14,7 @@ namespace tetradapt::report
   {
     if (event.node_sizes == nullptr || event.record.acceptance == adapt::Acceptance::rejected)
       return;
-    io::VtuWriter writer(event.displacement.mesh());
+    io::VtuWriter writer(event.mesh);
     writer.add_point_data("size", 1, *event.node_sizes);
     writer.add_regions();
     writer.write(folder.prepare("size_field.vtu"));

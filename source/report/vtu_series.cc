@@ -93,19 +93,19 @@ namespace tetradapt::report
   void
   VtuSeries::write_cycle(const adapt::CycleEvent &event, const std::string &path) const
   {
-    io::VtuWriter writer(event.displacement);
+    io::VtuWriter writer(*event.displacement);
     if (event.nodal_ren != nullptr)
       writer.add_point_data("REN", 1, *event.nodal_ren);
     writer.add_regions();
-    writer.add_cell_ids("surface_patch", surface_patches(event.displacement.mesh()));
+    writer.add_cell_ids("surface_patch", surface_patches(event.mesh));
     if (event.indicators != nullptr)
       writer.add_cell_data("error_indicator", 1, *event.indicators);
     if (with_stress)
       {
-        const MeanStresses stresses = mean_stresses(event.displacement, event.materials);
+        const MeanStresses stresses = mean_stresses(*event.displacement, event.materials);
         writer.add_cell_data("stress", 6, stresses.stress);
         writer.add_cell_data("von_mises", 1, stresses.von_mises);
-        if (event.displacement.pressure)
+        if (event.displacement->pressure)
           writer.add_cell_data("pressure", 1, stresses.pressure);
       }
     writer.add_boundary();

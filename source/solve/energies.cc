@@ -45,16 +45,19 @@ namespace tetradapt::solve
 
     /** The displacement gradient at a point of a cell. */
     dealii::Tensor<2, 3>
-    gradient_at(const mesh::NodalField &field, const unsigned int cell, const mesh::Barycentric &b)
+    gradient_at(const fem::Space                           &space,
+                const unsigned int                          cell,
+                const std::array<dealii::Tensor<1, 3>, 10> &values,
+                const mesh::Barycentric                    &b)
     {
       std::array<dealii::Tensor<1, 3>, 10> gradients;
-      mesh::shape_gradients(field.degree(),
+      mesh::shape_gradients(space.degree(),
                             b,
-                            mesh::barycentric_gradients(field.mesh(), cell),
+                            mesh::barycentric_gradients(space.tet_mesh(), cell),
                             gradients.data());
       dealii::Tensor<2, 3> G;
-      for (unsigned int k = 0; k < field.n_nodes_per_cell(); ++k)
-        G += outer_product(field.values[field.node(cell, k)], gradients[k]);
+      for (unsigned int i = 0; i < space.n_nodes_per_cell(); ++i)
+        G += outer_product(values[i], gradients[i]);
       return G;
     }
 
@@ -71,16 +74,14 @@ namespace tetradapt::solve
           points.push_back({{1. - p[0] - p[1] - p[2], p[0], p[1], p[2]}});
       }
 
-      /** At all points of @p cell. */
+      /** At all points of @p cell, whose nodes have the displacements @p u. */
       void
-      compute(const mesh::NodalField            &field,
-              unsigned int                       cell,
-              std::vector<dealii::Tensor<2, 3>> &gradients) const
+      compute(const mesh::TetMesh                        &mesh,
+              unsigned int                                cell,
+              const std::array<dealii::Tensor<1, 3>, 10> &u,
+              std::vector<dealii::Tensor<2, 3>>          &gradients) const
       {
-        const auto                           directions = barycentric_gradients(field.mesh(), cell);
-        std::array<dealii::Tensor<1, 3>, 10> u;
-        for (unsigned int k = 0; k < field.n_nodes_per_cell(); ++k)
-          u[k] = field.values[field.node(cell, k)];
+        const auto directions = mesh::barycentric_gradients(mesh, cell);
         for (unsigned int q = 0; q < points.size(); ++q)
           {
             const mesh::Barycentric            &b = points[q];
@@ -108,35 +109,36 @@ namespace tetradapt::solve
   } // namespace
 
   Energies
-  compute_energies(const mesh::NodalField       &displacement,
-                   const mechanics::MaterialMap &materials,
-                   MPI_Comm                      communicator)
+  compute_energies(const fem::Field &displacement, const mechanics::MaterialMap &materials)
   {
-    const auto                    &mesh    = displacement.mesh();
-    const unsigned long            n_ranks = dealii::Utilities::MPI::n_mpi_processes(communicator);
-    const unsigned long            rank    = dealii::Utilities::MPI::this_mpi_process(communicator);
+    const fem::Space              &space    = displacement.space();
+    const mesh::TetMesh           &mesh     = space.tet_mesh();
+    const auto                    &pressure = displacement.pressure();
     const dealii::QGaussSimplex<3> quadrature(displacement.degree());
-    const unsigned int             begin = mesh.n_cells() * rank / n_ranks;
-    const unsigned int             end   = mesh.n_cells() * (rank + 1) / n_ranks;
 
-    const GradientTable               table(displacement.degree(), quadrature);
-    std::vector<dealii::Tensor<2, 3>> gradients(quadrature.size());
-    ShearModuli                       shear_moduli(materials);
-    mechanics::VolumeDensity::Samples temperatures;
-    Energies                          sum;
-    for (unsigned int cell = begin; cell < end; ++cell)
+    std::array<dealii::Tensor<1, 3>, 10> u;
+    const GradientTable                  table(displacement.degree(), quadrature);
+    std::vector<dealii::Tensor<2, 3>>    gradients(quadrature.size());
+    ShearModuli                          shear_moduli(materials);
+    mechanics::VolumeDensity::Samples    temperatures;
+    Energies                             sum;
+    for (unsigned int k = 0; k < space.touching_cells().size(); ++k)
       {
-        const int    region = mesh.regions[cell];
-        const auto  &law    = materials.linear_law(region);
-        const double volume = mesh::cell_volume(mesh, cell);
-        const double mu     = shear_moduli(region);
+        if (!space.is_own_cell(k))
+          continue;
+        const unsigned int cell   = space.touching_cells()[k];
+        const int          region = mesh.regions[cell];
+        const auto        &law    = materials.linear_law(region);
+        const double       volume = mesh::cell_volume(mesh, cell);
+        const double       mu     = shear_moduli(region);
         // In mixed form, of the elastic part of a gradient; else of a strain.
         const auto density_at = [&](const mesh::Barycentric &b, const dealii::Tensor<2, 3> &G) {
-          return displacement.pressure ? law.complementary_density(
-                   materials.pressure_form(region).stress(G, displacement.pressure->value(cell, b)))
-                                       : law.energy_density(symmetrize(G));
+          return pressure ? law.complementary_density(
+                   materials.pressure_form(region).stress(G, pressure->value(cell, b)))
+                          : law.energy_density(symmetrize(G));
         };
-        table.compute(displacement, cell, gradients);
+        displacement.values_of_cell(k, u);
+        table.compute(mesh, cell, u, gradients);
         double stored = 0.;
         for (unsigned int q = 0; q < quadrature.size(); ++q)
           {
@@ -144,7 +146,7 @@ namespace tetradapt::solve
             sum.scale += 2. * weight * mu * gradients[q].norm_square();
             const double part = weight * density_at(table.points[q], gradients[q]);
             stored += part;
-            if (!displacement.pressure)
+            if (!pressure)
               sum.energy += part;
           }
         if (materials.has_thermal_strain() && materials.thermal_density().acts_in(region))
@@ -156,15 +158,15 @@ namespace tetradapt::solve
               stored
                 += point.weight * volume
                    * density_at(point.b,
-                                gradient_at(displacement, cell, point.b)
+                                gradient_at(space, cell, u, point.b)
                                   - point.value[0]
                                       * dealii::Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()));
           }
         sum.stored += 0.5 * stored;
-        if (displacement.pressure)
+        if (pressure)
           sum.energy += stored;
       }
-    add_up(sum, communicator);
+    add_up(sum, space.communicator());
     return sum;
   }
 

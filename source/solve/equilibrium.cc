@@ -43,18 +43,19 @@ namespace tetradapt::solve
     };
 
     NodalSum
-    sum_of(const LoadedSystem &system, const mesh::NodalField &displacement)
+    sum_of(const LoadedSystem &system, const fem::Field &displacement)
     {
       NodalSum sum;
       for (unsigned int node = 0; node < system.space.n_owned_nodes(); ++node)
         {
-          const unsigned int  field_node = system.space.field_node(node);
-          const Tensor<1, 3> &force      = system.forces[field_node];
+          Tensor<1, 3> force;
+          for (unsigned int c = 0; c < 3; ++c)
+            force[c] = system.forces.local_element(3 * node + c);
           if (force == Tensor<1, 3>())
             continue;
-          Point<3> x = displacement.node_position(field_node);
+          Point<3> x = system.space.node_position(node);
           if (system.internal_forces != nullptr)
-            x += displacement.values[field_node];
+            x += displacement.value(node);
           sum.resultant.add(x, force);
           sum.magnitude += force.norm();
         }
@@ -98,9 +99,9 @@ namespace tetradapt::solve
 
     /** Lists reference points and what acts on them. */
     void
-    list_reference_points(const LoadedSystem     &system,
-                          const mesh::NodalField &displacement,
-                          Equilibrium            &result)
+    list_reference_points(const LoadedSystem &system,
+                          const fem::Field   &displacement,
+                          Equilibrium        &result)
     {
       const mechanics::PatchExtents patches(system.space.tet_mesh());
       for (const mechanics::RigidCoupling &coupling : system.prescribed.rigid)
@@ -110,7 +111,7 @@ namespace tetradapt::solve
           ReferencePoint point;
           point.name                          = parameters.name;
           point.point                         = coupling.reference;
-          point.motion                        = coupling.motion_of(displacement.values);
+          point.motion                        = coupling.motion_of(displacement);
           point.reaction.force                = reaction.force;
           point.reaction.moment               = reaction.moment_about(coupling.reference);
           std::tie(point.force, point.moment) = mechanics::reference_forces(parameters);
@@ -180,16 +181,14 @@ namespace tetradapt::solve
   {
     const mechanics::SpringForces springs
       = mechanics::spring_forces(system.springs, *solution.displacement);
-    std::vector<dealii::Tensor<1, 3>> loads_and_springs;
+    fem::Vector loads_and_springs;
     if (!system.springs.empty())
       {
         loads_and_springs = system.forces;
-        for (std::size_t node = 0; node < loads_and_springs.size(); ++node)
-          loads_and_springs[node] += springs.nodal[node];
+        loads_and_springs += springs.nodal;
       }
     mechanics::Reactions reactions
-      = mechanics::compute_reactions(system.space,
-                                     system.materials,
+      = mechanics::compute_reactions(system.materials,
                                      system.prescribed,
                                      system.springs.empty() ? system.forces : loads_and_springs,
                                      system.internal_forces,

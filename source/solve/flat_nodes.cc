@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 #include "tetradapt/solve/flat_nodes.h"
 
-#include "rigid_modes.h"
-
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <algorithm>
@@ -154,7 +152,7 @@ namespace tetradapt::solve
     std::vector<dealii::Point<3>> positions(n_nodes);
     for (unsigned int node = 0; node < n_nodes; ++node)
       if (flat.reach[node] > 0.)
-        positions[node] = position(space, node);
+        positions[node] = space.node_position(node);
     Aggregates clusters;
     clusters.of_node.assign(n_nodes, no_aggregate);
     std::vector<unsigned int> members;

@@ -260,7 +260,7 @@ namespace tetradapt::solve
   }
 
   Vector
-  LinearSolver::right_hand_side(const std::vector<dealii::Tensor<1, 3>> &forces) const
+  LinearSolver::right_hand_side(const Vector &forces) const
   {
     Vector b = matrix_free != nullptr
                  ? matrix_free->right_hand_side(forces)

@@ -46,9 +46,9 @@ namespace tetradapt::solve
   void
   MixedSolver::find_free_pressures()
   {
-    const mesh::TetMesh       &mesh  = model.space.tet_mesh();
+    const mesh::TetMesh       &mesh  = model.space->tet_mesh();
     const auto                 parts = incompressible_parts(mesh, model.materials);
-    const mesh::PressureNodes &nodes = *pressures.nodes();
+    const mesh::PressureNodes &nodes = *pressures->nodes();
     std::vector<char>          of_incompressible(nodes.size(), 0);
     for (unsigned int cell = 0; cell < mesh.n_cells(); ++cell)
       if (model.materials.pressure_form(mesh.regions[cell]).inverse_rest == 0.)
@@ -61,10 +61,10 @@ namespace tetradapt::solve
         number.emplace(v, number.size());
     for (const auto &part : number)
       {
-        Vector constant(pressures.vector_layout());
-        for (unsigned int node = 0; node < pressures.n_owned_nodes(); ++node)
+        Vector constant(pressures->vector_layout());
+        for (unsigned int node = 0; node < pressures->n_owned_nodes(); ++node)
           {
-            const unsigned int field_node = pressures.field_node(node);
+            const unsigned int field_node = pressures->field_node(node);
             if (of_incompressible[field_node] != 0 && parts[nodes.vertex(field_node)] == part.first)
               constant.local_element(node) = 1.;
           }
@@ -78,18 +78,18 @@ namespace tetradapt::solve
   void
   MixedSolver::check_volume(const Vector &free_pressure)
   {
-    Vector u(model.space.vector_layout()), flow(pressures.vector_layout());
+    Vector u(model.space->vector_layout()), flow(pressures->vector_layout());
     model.fixed.distribute(u);
     divergence.vmult(flow, u);
     // How much the equations want the volume to change, apart from what flows in or out.
     const double change = volume_load * free_pressure - flow * free_pressure;
     double       scale  = std::abs(volume_load * free_pressure);
-    for (const auto &face : model.space.tet_mesh().faces)
+    for (const auto &face : model.space->tet_mesh().faces)
       {
         dealii::Tensor<1, 3> mean;
         for (const unsigned int v : face.vertices)
           mean += model.prescribed.values[v] / 3.;
-        scale += std::abs(mean * mesh::face_area_vector(model.space.tet_mesh(), face));
+        scale += std::abs(mean * mesh::face_area_vector(model.space->tet_mesh(), face));
       }
     if (std::abs(change) <= 1e-10 * scale)
       return;

@@ -58,9 +58,10 @@ namespace tetradapt::solve
                            const scene::SolverParameters &parameters,
                            const core::Log               &log)
     : model(model), parameters(parameters), log(log),
-      pressures(model.space, std::make_shared<const mesh::PressureNodes>(model.space.tet_mesh())),
-      divergence(pressures, model.fixed), mass(pressures, model.materials),
-      volume_load(mechanics::thermal_volume_load(pressures, model.materials))
+      pressures(std::make_shared<const fem::PressureSpace>(
+        model.space, std::make_shared<const mesh::PressureNodes>(model.space->tet_mesh()))),
+      divergence(*pressures, model.fixed), mass(*pressures, model.materials),
+      volume_load(mechanics::thermal_volume_load(*pressures, model.materials))
   {
     find_free_pressures();
   }
@@ -153,10 +154,10 @@ namespace tetradapt::solve
   }
 
   LinearResult
-  MixedSolver::solve(const Vector        &forces,
-                     const LinearStop    &stop,
-                     Vector              &u,
-                     mesh::PressureField &pressure) const
+  MixedSolver::solve(const Vector     &forces,
+                     const LinearStop &stop,
+                     Vector           &u,
+                     Vector           &pressure) const
   {
     Iterate state{{u, volume_load}, {forces, volume_load}, {forces, volume_load}};
     // The load is the residual where nothing moves but what is prescribed.
@@ -173,12 +174,11 @@ namespace tetradapt::solve
                                  "double precision. Choose other units.");
     if (norm == 0.)
       {
-        u = state.x.u;
-        std::fill(pressure.values.begin(), pressure.values.end(), 0.);
+        u        = state.x.u;
+        pressure = 0.;
         return {0, 0, 0., "nothing to solve: no load"};
       }
-    for (unsigned int node = 0; node < pressures.n_owned_nodes(); ++node)
-      state.x.p.local_element(node) = pressure.values[pressures.field_node(node)];
+    state.x.p = pressure;
     Vector difference(u);
     difference -= state.x.u;
     if (!difference.all_zero() || !state.x.p.all_zero())
@@ -204,8 +204,8 @@ namespace tetradapt::solve
         mass.vmult(product, constant);
         state.x.p.add(-(product * state.x.p) / (product * constant), constant);
       }
-    u = state.x.u;
-    pressures.gather(state.x.p, pressure.values);
+    u        = state.x.u;
+    pressure = state.x.p;
     return {state.iterations,
             state.iterations,
             error_factor * state.norm,

@@ -67,7 +67,7 @@ namespace tetradapt::solve
           {
             double      &value    = r.local_element(3 * node + c);
             const double internal = value;
-            const double external = factor * model.forces[field_node][c];
+            const double external = factor * model.forces.local_element(3 * node + c);
             work += external * x.local_element(3 * node + c);
             parts += std::abs(external * x.local_element(3 * node + c));
             value = external - internal;
@@ -101,7 +101,7 @@ namespace tetradapt::solve
   {
     const fem::Space                 &space = model.space;
     mechanics::PrescribedDisplacement missing;
-    std::vector<dealii::Tensor<1, 3>> forces(space.n_field_nodes());
+    Vector                            forces(space.vector_layout());
     missing.fixed = model.prescribed.fixed;
     missing.values.resize(model.prescribed.values.size());
     // Ghosts also have to know what is prescribed.
@@ -114,7 +114,7 @@ namespace tetradapt::solve
             missing.values[field_node][c]
               = factor * model.prescribed.values[field_node][c] - x.local_element(3 * node + c);
           else if (node < space.n_owned_nodes())
-            forces[field_node][c] = r.local_element(3 * node + c);
+            forces.local_element(3 * node + c) = r.local_element(3 * node + c);
       }
     x.zero_out_ghost_values();
     const fem::Constraints constraints = mechanics::make_constraints(missing, space);
@@ -164,13 +164,13 @@ namespace tetradapt::solve
     held.fixed = model.prescribed.fixed;
     held.values.resize(model.prescribed.values.size());
     // Any forces in which no mode is missing; the same on any number of ranks.
-    std::vector<dealii::Tensor<1, 3>> forces(space.n_field_nodes());
+    Vector forces(space.vector_layout());
     for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
       {
         const unsigned int field_node = space.field_node(node);
         for (unsigned int c = 0; c < 3; ++c)
           if (!model.prescribed.is_fixed(field_node, c))
-            forces[field_node][c] = std::sin(1.7 * (3. * field_node + c) + 0.3);
+            forces.local_element(3 * node + c) = std::sin(1.7 * (3. * field_node + c) + 0.3);
       }
     const fem::Constraints constraints = mechanics::make_constraints(held, space);
     try
@@ -190,16 +190,12 @@ namespace tetradapt::solve
     return true;
   }
 
-  std::vector<dealii::Tensor<1, 3>>
+  Vector
   NonlinearSolver::internal_forces(const Vector &x) const
   {
     Vector forces;
     stiffness.internal_forces(x, forces);
-    std::vector<dealii::Tensor<1, 3>> values(model.space.n_field_nodes());
-    for (unsigned int node = 0; node < model.space.n_owned_nodes(); ++node)
-      for (unsigned int c = 0; c < 3; ++c)
-        values[model.space.field_node(node)][c] = forces.local_element(3 * node + c);
-    return values;
+    return forces;
   }
 
   std::string

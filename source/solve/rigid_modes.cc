@@ -5,17 +5,6 @@
 
 namespace tetradapt::solve
 {
-  dealii::Point<3>
-  position(const fem::Space &space, const unsigned int node)
-  {
-    const auto        &points     = space.tet_mesh().points;
-    const unsigned int field_node = space.field_node(node);
-    if (field_node < points.size())
-      return points[field_node];
-    const auto &edge = space.edge_table()->edges[field_node - points.size()];
-    return points[edge[0]] + 0.5 * (points[edge[1]] - points[edge[0]]);
-  }
-
   std::vector<NodeModes<3>>
   rigid_modes(const fem::Space &space, const fem::FixedUnknowns &fixed)
   {
@@ -25,7 +14,7 @@ namespace tetradapt::solve
     std::vector<NodeModes<3>> modes(space.n_owned_nodes());
     for (unsigned int node = 0; node < modes.size(); ++node)
       {
-        const auto x = position(space, node);
+        const auto x = space.node_position(node);
         for (unsigned int k = 0; k < 6; ++k)
           {
             const auto motion

@@ -7,10 +7,6 @@
 
 namespace tetradapt::solve
 {
-  /** Where an owned node of @p space is: at a vertex or in the middle of an edge. */
-  dealii::Point<3>
-  position(const fem::Space &space, unsigned int node);
-
   /** The six rigid motions of the body at the owned nodes, zero in fixed components. */
   std::vector<NodeModes<3>>
   rigid_modes(const fem::Space &space, const fem::FixedUnknowns &fixed);

@@ -9,10 +9,9 @@ namespace tetradapt::solve
                std::shared_ptr<const mesh::TetMesh> mesh,
                unsigned int                         degree,
                MPI_Comm                             communicator,
-               const core::Log                     &log,
-               const mesh::NodalField              *start)
+               const core::Log                     &log)
   {
     return StaticSystem(scene, materials, std::move(mesh), degree, communicator, log)
-      .solve(start, StaticSystem::Stop());
+      .solve(nullptr, StaticSystem::Stop());
   }
 } // namespace tetradapt::solve

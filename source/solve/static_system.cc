@@ -22,8 +22,6 @@ namespace tetradapt::solve
 {
   namespace
   {
-    using NodalValues = std::vector<dealii::Tensor<1, 3>>;
-
     std::shared_ptr<const mesh::EdgeTable>
     edges_for(const mesh::TetMesh &mesh, unsigned int degree)
     {
@@ -31,13 +29,13 @@ namespace tetradapt::solve
                          : nullptr;
     }
 
-    double
-    work(const fem::Space &space, const NodalValues &forces, const NodalValues &displacement)
+    dealii::Tensor<1, 3>
+    at_node(const Vector &vector, const unsigned int node)
     {
-      double sum = 0.;
-      for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
-        sum += forces[space.field_node(node)] * displacement[space.field_node(node)];
-      return dealii::Utilities::MPI::sum(sum, space.communicator());
+      dealii::Tensor<1, 3> value;
+      for (unsigned int c = 0; c < 3; ++c)
+        value[c] = vector.local_element(3 * node + c);
+      return value;
     }
 
     /** The estimated algebraic error may be too small; a norm that is not well above it
@@ -62,12 +60,7 @@ namespace tetradapt::solve
     {
       double sum = 0.;
       for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
-        {
-          dealii::Tensor<1, 3> force;
-          for (unsigned int c = 0; c < 3; ++c)
-            force[c] = forces.local_element(3 * node + c);
-          sum += prescribed.free_part(space.field_node(node), force).norm();
-        }
+        sum += prescribed.free_part(space.field_node(node), at_node(forces, node)).norm();
       return dealii::Utilities::MPI::sum(sum, space.communicator());
     }
   } // namespace
@@ -80,25 +73,25 @@ namespace tetradapt::solve
          unsigned int                         degree,
          MPI_Comm                             communicator,
          const core::Log                     &caller_log)
-      : scene(scene), materials(materials), mesh(std::move(mesh_pointer)), degree(degree),
-        log(caller_log), edges(edges_for(*mesh, degree)),
+      : scene(scene), materials(materials), mesh(std::move(mesh_pointer)), log(caller_log),
+        edges(edges_for(*mesh, degree)),
         prescribed(mechanics::prescribe(scene.supports, *mesh, edges.get(), scene.mesh)),
         springs(scene, *mesh),
         kept(materials.is_mixed()
                ? std::make_unique<mechanics::MaterialMap>(kept_scene(scene), *mesh)
-               : nullptr),
-        triangulation(*mesh, communicator)
+               : nullptr)
     {
       if (!springs.empty())
         mechanics::check_rigid_motions(*mesh, prescribed, &springs);
-      space       = std::make_unique<fem::Space>(triangulation, degree, edges.get());
+      space = std::make_shared<const fem::Space>(
+        std::make_shared<const fem::Triangulation>(mesh, communicator), degree, edges);
       constraints = mechanics::make_constraints(prescribed, *space);
       fixed       = std::make_unique<fem::FixedUnknowns>(*space, constraints);
       log.progress("assembling " + std::to_string(space->n_dofs()) + " unknowns");
       mechanics::NodalLoads loads
         = mechanics::assemble_loads(scene, kept ? *kept : materials, *space);
       forces = std::move(loads.forces);
-      mechanics::add_rigid_forces(scene.supports, prescribed, forces);
+      mechanics::add_rigid_forces(scene.supports, prescribed, *space, forces);
       load_totals = std::move(loads.totals);
       couplings   = std::make_unique<mechanics::RigidCouplings>(prescribed.rigid, *space);
       if (!materials.is_linear())
@@ -111,30 +104,28 @@ namespace tetradapt::solve
       solver   = std::make_unique<LinearSolver>(
         LinearModel{*space, *tangents, constraints, couplings.get(), &springs}, scene.solver, log);
       if (materials.is_mixed())
-        mixed_solver = std::make_unique<MixedSolver>(
-          MixedModel{*space, materials, prescribed, *fixed, *solver}, scene.solver, log);
+        mixed_solver
+          = std::make_unique<MixedSolver>(MixedModel{space, materials, prescribed, *fixed, *solver},
+                                          scene.solver,
+                                          log);
     }
 
     /** The forces on the nodes of loads and, where it moves, of the ground under springs. */
-    NodalValues
+    Vector
     applied_forces() const
     {
-      if (!springs.have_moved_ground())
-        return forces;
-      const mesh::NodalField at_rest(mesh, degree, edges);
-      NodalValues            sum = mechanics::spring_forces(springs, at_rest).nodal;
-      for (std::size_t node = 0; node < sum.size(); ++node)
-        sum[node] += forces[node];
+      Vector sum(forces);
+      if (springs.have_moved_ground())
+        sum += mechanics::spring_forces(springs, fem::Field(space)).nodal;
       return sum;
     }
 
     /** int eps(u) : C : eps(u) and, with springs, what they have of their own: Energies of the
      * body, the springs' after that. */
     std::pair<Energies, double>
-    energies_of(const mesh::NodalField &u) const
+    energies_of(const fem::Field &u) const
     {
-      return {compute_energies(u, materials, space->communicator()),
-              mechanics::spring_forces(springs, u).energy};
+      return {compute_energies(u, materials), mechanics::spring_forces(springs, u).energy};
     }
 
     /** With springs an error relative to the energy of all says nothing of the body on soft ones:
@@ -155,7 +146,7 @@ namespace tetradapt::solve
     /** The unknowns with a value of @p free where they are free, if it is not null,
      * and the prescribed ones times @p factor elsewhere. Collective. */
     Vector
-    vector_of(const NodalValues *free, double factor) const
+    vector_of(const Vector *free, double factor) const
     {
       Vector x(space->vector_layout());
       for (unsigned int node = 0; node < space->n_owned_nodes(); ++node)
@@ -165,12 +156,12 @@ namespace tetradapt::solve
             if (prescribed.is_fixed(field_node, c))
               x.local_element(3 * node + c) = factor * prescribed.values[field_node][c];
             else if (free != nullptr)
-              x.local_element(3 * node + c) = (*free)[field_node][c];
+              x.local_element(3 * node + c) = free->local_element(3 * node + c);
           if (prescribed.fixed[field_node] == mechanics::PrescribedDisplacement::is_inclined)
             {
               dealii::Tensor<1, 3> value = factor * prescribed.values[field_node];
               if (free != nullptr)
-                value += prescribed.free_part(field_node, (*free)[field_node]);
+                value += prescribed.free_part(field_node, at_node(*free, node));
               for (unsigned int c = 0; c < 3; ++c)
                 x.local_element(3 * node + c) = value[c];
             }
@@ -186,27 +177,25 @@ namespace tetradapt::solve
     }
 
     void
-    solve_nonlinear(Vector &x, StaticSolution &solution);
+    solve_nonlinear(Vector x, StaticSolution &solution);
 
     const scene::Scene                    &scene;
     const mechanics::MaterialMap          &materials;
     std::shared_ptr<const mesh::TetMesh>   mesh;
-    unsigned int                           degree;
     core::Log                              log;
     std::shared_ptr<const mesh::EdgeTable> edges;
     mechanics::PrescribedDisplacement      prescribed;
     mechanics::Springs                     springs;
     /** Mixed form only: the materials without what the pressure carries. */
     std::unique_ptr<mechanics::MaterialMap>  kept;
-    fem::Triangulation                       triangulation;
-    std::unique_ptr<mechanics::TangentField> tangents; ///< of linear laws
-    std::unique_ptr<fem::Space>              space;
+    std::unique_ptr<mechanics::TangentField> tangents;    ///< of linear laws
+    std::shared_ptr<const fem::Space>        space;       ///< of solutions also
     fem::Constraints                         constraints; ///< of the supports
     std::unique_ptr<fem::FixedUnknowns>      fixed;       ///< by constraints
-    NodalValues                              forces;      ///< of the loads, on the nodes owned
+    Vector                                   forces;      ///< of the loads
     std::vector<mechanics::LoadTotal>        load_totals;
-    /** Of laws that are not linear, at the last solution; on the nodes owned. */
-    NodalValues internal_forces;
+    /** Of laws that are not linear, at the last solution. */
+    Vector internal_forces;
     /** Of these: the resultants of the loads at the deformed positions. */
     std::vector<mechanics::Resultant>          deformed_loads;
     std::unique_ptr<mechanics::RigidCouplings> couplings;
@@ -217,15 +206,16 @@ namespace tetradapt::solve
 
   /** The part of solve() for laws that are not linear. */
   void
-  StaticSystem::Data::solve_nonlinear(Vector &x, StaticSolution &solution)
+  StaticSystem::Data::solve_nonlinear(Vector x, StaticSolution &solution)
   {
-    const NonlinearResult   result = nonlinear_solver->solve(x);
-    const mesh::NodalField *field  = solution.displacement.get();
-    space->gather(x, solution.displacement->values);
+    const NonlinearResult result = nonlinear_solver->solve(x);
+    internal_forces              = nonlinear_solver->internal_forces(x);
+    solution.external_work       = forces * x;
+    solution.displacement        = std::make_shared<const fem::Field>(space, std::move(x));
     deformed_loads.clear();
-    for (const auto &total : mechanics::assemble_loads(scene, materials, *space, field).totals)
+    for (const auto &total :
+         mechanics::assemble_loads(scene, materials, *space, solution.displacement.get()).totals)
       deformed_loads.push_back(total.resultant);
-    solution.external_work = work(*space, forces, field->values);
     solution.strain_energy = result.stored_energy;
     solution.energy        = prescribed.is_homogeneous()
                                ? 2. * (solution.external_work - result.stored_energy)
@@ -240,10 +230,9 @@ namespace tetradapt::solve
                       + std::to_string(result.load_steps) + " of the load";
     if (result.vain_steps > 0)
       solution.solver += " and " + std::to_string(result.vain_steps) + " in vain";
-    internal_forces = nonlinear_solver->internal_forces(x);
-    double sum      = 0.;
+    double sum = 0.;
     for (unsigned int node = 0; node < space->n_owned_nodes(); ++node)
-      sum += internal_forces[space->field_node(node)].norm();
+      sum += at_node(internal_forces, node).norm();
     solution.load_magnitude = dealii::Utilities::MPI::sum(sum, space->communicator());
   }
 
@@ -260,45 +249,45 @@ namespace tetradapt::solve
   StaticSystem::~StaticSystem() = default;
 
   StaticSolution
-  StaticSystem::solve(const mesh::NodalField *start, const Stop &stop) const
+  StaticSystem::solve(const fem::Field *start, const Stop &stop) const
   {
     const fem::Space &space = *data->space;
     StaticSolution    solution;
-    solution.displacement
-      = std::make_shared<mesh::NodalField>(data->mesh, data->degree, data->edges);
     solution.n_dofs = space.n_dofs();
     solution.loads  = data->load_totals;
-    auto &values    = solution.displacement->values;
 
     // Where laws are not linear, prescribed values are approached from the last ones.
-    Vector x = data->vector_of(start == nullptr ? nullptr : &start->values,
+    Vector x = data->vector_of(start == nullptr ? nullptr : &start->vector(),
                                data->nonlinear_solver && start == nullptr ? 0. : 1.);
     if (data->nonlinear_solver)
       {
-        data->solve_nonlinear(x, solution);
+        data->solve_nonlinear(std::move(x), solution);
         return solution;
       }
     const bool   with_springs    = !data->springs.empty();
     const Vector right_hand_side = data->solver->right_hand_side(data->applied_forces());
     LinearStop   linear_stop     = data->stop_of(stop);
     LinearResult result;
+    std::shared_ptr<const fem::Pressure> pressure;
     if (data->mixed_solver)
       {
-        const auto pressure = start != nullptr && start->pressure
-                                ? std::make_shared<mesh::PressureField>(*start->pressure)
-                                : std::make_shared<mesh::PressureField>(*data->mesh);
-        result              = data->mixed_solver->solve(right_hand_side, linear_stop, x, *pressure);
-        solution.displacement->pressure = pressure;
-        solution.n_dofs += data->mixed_solver->space().n_dofs();
+        const auto &pressures = data->mixed_solver->space();
+        Vector      p(pressures->vector_layout());
+        if (start != nullptr && start->pressure())
+          {
+            p = start->pressure()->vector();
+            p.zero_out_ghost_values();
+          }
+        result   = data->mixed_solver->solve(right_hand_side, linear_stop, x, p);
+        pressure = std::make_shared<const fem::Pressure>(pressures, std::move(p));
+        solution.n_dofs += pressures->n_dofs();
       }
     else
       {
         // On soft springs the energy of the body is a small part of all.
         if (!data->prescribed.is_homogeneous() || with_springs)
           linear_stop.energy = [&](const Vector &iterate) {
-            space.gather(iterate, values);
-            return compute_energies(*solution.displacement, data->materials, space.communicator())
-              .energy;
+            return compute_energies(fem::Field(data->space, iterate), data->materials).energy;
           };
         result = data->solver->solve(right_hand_side, linear_stop, "The loads", x);
       }
@@ -307,13 +296,14 @@ namespace tetradapt::solve
     solution.algebraic_error         = result.algebraic_error;
     solution.solver                  = result.description;
     solution.load_magnitude          = free_magnitude(space, data->prescribed, right_hand_side);
-    space.gather(x, values);
+    solution.external_work           = data->forces * x;
+    solution.displacement
+      = std::make_shared<const fem::Field>(data->space, std::move(x), std::move(pressure));
 
     const auto [energies, spring_energy] = data->energies_of(*solution.displacement);
     const double all_energy              = energies.energy + 2. * spring_energy;
     if (with_springs)
       solution.spring_energy = spring_energy;
-    solution.external_work = work(space, data->forces, values);
     // In mixed form temperatures load the pressure's equation also, which that work leaves out.
     const bool thermal = data->materials.has_thermal_strain();
     const bool by_work = data->is_driven_by_loads() && !(thermal && data->materials.is_mixed());
@@ -325,25 +315,22 @@ namespace tetradapt::solve
     return solution;
   }
 
-  std::shared_ptr<mesh::NodalField>
-  StaticSystem::solve_dual(const NodalValues &forces, const Stop &stop) const
+  std::shared_ptr<const fem::Field>
+  StaticSystem::solve_dual(const Vector &forces, const Stop &stop) const
   {
     require_linear();
-    auto         field = std::make_shared<mesh::NodalField>(data->mesh, data->degree, data->edges);
-    Vector       x     = data->vector_of(nullptr, 0.);
-    const Vector b     = data->vector_of(&forces, 0.);
+    Vector       x = data->vector_of(nullptr, 0.);
+    const Vector b = data->vector_of(&forces, 0.);
     data->solver->solve(b, data->stop_of(stop), "The weights of the goal", x);
-    data->space->gather(x, field->values);
-    return field;
+    return std::make_shared<const fem::Field>(data->space, std::move(x));
   }
 
   void
-  StaticSystem::precondition(const NodalValues &forces, NodalValues &displacement) const
+  StaticSystem::precondition(const Vector &forces, Vector &displacement) const
   {
     require_linear();
-    Vector x(data->space->vector_layout());
-    data->solver->precondition(x, data->vector_of(&forces, 0.));
-    data->space->gather(x, displacement);
+    displacement.reinit(data->space->vector_layout());
+    data->solver->precondition(displacement, data->vector_of(&forces, 0.));
   }
 
   void
@@ -354,17 +341,22 @@ namespace tetradapt::solve
                              "only. Leave out the estimators that need them.");
   }
 
-  NodalValues
+  const Vector &
   StaticSystem::nodal_forces() const
   {
-    const fem::Space &space = *data->space;
-    Vector            owned(space.vector_layout());
-    for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
-      for (unsigned int c = 0; c < 3; ++c)
-        owned.local_element(3 * node + c) = data->forces[space.field_node(node)][c];
-    NodalValues whole;
-    space.gather(owned, whole);
-    return whole;
+    return data->forces;
+  }
+
+  const std::shared_ptr<const fem::Space> &
+  StaticSystem::space() const
+  {
+    return data->space;
+  }
+
+  std::shared_ptr<const fem::PressureSpace>
+  StaticSystem::pressure_space() const
+  {
+    return data->mixed_solver ? data->mixed_solver->space() : nullptr;
   }
 
   Equilibrium

@@ -147,10 +147,10 @@ namespace
     const auto  tetrahedra    = solve_scene(scene, mesh, 2);
     const auto &field         = *hexahedra.displacement.hexahedra;
     double      largest = 0., difference = 0.;
-    for (unsigned int n = 0; n < tetrahedra.displacement->n_nodes(); ++n)
+    for (unsigned int n = 0; n < tetrahedra.whole->n_nodes(); ++n)
       {
-        const auto &u  = tetrahedra.displacement->values[n];
-        const auto  at = field.locate(tetrahedra.displacement->node_position(n));
+        const auto &u  = tetrahedra.whole->values[n];
+        const auto  at = field.locate(tetrahedra.whole->node_position(n));
         largest        = std::max(largest, u.norm());
         difference     = std::max(difference, (u - field.value(at.cell, at.unit)).norm());
       }

@@ -10,6 +10,7 @@
 
 #include "tetradapt/compare/difference.h"
 #include "tetradapt/compare/tet_quadrature.h"
+#include "tetradapt/fem/replication.h"
 
 #include "../solve/solving.h"
 
@@ -37,18 +38,20 @@ namespace
       exact_solver.solver.tolerance = 1e-12;
       solution
         = solve::solve_static(exact_solver, *materials, mesh, degree, MPI_COMM_WORLD, core::Log());
+      displacement = fem::replicate(*solution.displacement);
     }
     EquilibratedBound
     bound() const
     {
       return estimate::equilibrated_bound(
-        *solution.displacement, *solution.displacement, scene, *materials, MPI_COMM_WORLD);
+        *displacement, *displacement, scene, *materials, MPI_COMM_WORLD);
     }
 
     scene::Scene                            scene;
     std::shared_ptr<mesh::TetMesh>          mesh;
     std::unique_ptr<mechanics::MaterialMap> materials;
     solve::StaticSolution                   solution;
+    std::shared_ptr<const mesh::NodalField> displacement; ///< on every rank
   };
 
   /** Calls @p visit (cell, point, weight, stress) for quadrature points of degree 5 in
@@ -113,7 +116,7 @@ namespace
     const auto                         body = box(Point<3>(2, 1, 1), {{4, 2, 2}}, 0.2, 1.);
     const Solved                       s(every_load(), body, degree);
     const estimate::EquilibratedStress stress(
-      *s.solution.displacement, *s.solution.displacement, s.scene, *s.materials, MPI_COMM_WORLD);
+      *s.displacement, *s.displacement, s.scene, *s.materials, MPI_COMM_WORLD);
     // v = x (y, 1, z) and x (z, x, -z).
     const auto v = [](unsigned int which, const Point<3> &p) {
       return which == 0 ? p[0] * Tensor<1, 3>({p[1], 1., p[2]})
@@ -211,7 +214,7 @@ namespace
   {
     const Solved                       s(cubic(0.3), box(Point<3>(1, 1, 1), {{3, 3, 3}}), degree);
     const estimate::EquilibratedStress stress(
-      *s.solution.displacement, *s.solution.displacement, s.scene, *s.materials, MPI_COMM_WORLD);
+      *s.displacement, *s.displacement, s.scene, *s.materials, MPI_COMM_WORLD);
     const auto &law   = s.materials->linear_law(0);
     double      error = 0., rest = 0., eta = 0.;
     integrate(s,
@@ -225,7 +228,7 @@ namespace
                 const auto   exact = law.stress(Tensor<2, 3>({{2. * x * (1. + y), x * x, 0.},
                                                               {y * z, x * z, x * y},
                                                               {z * z, 0., 2. * x * z}}));
-                const auto   own   = law.stress(s.solution.displacement->gradient(cell, b));
+                const auto   own   = law.stress(s.displacement->gradient(cell, b));
                 error += weight * law.complementary_density(exact - own);
                 rest += weight * law.complementary_density(exact - value);
                 eta += weight * law.complementary_density(value - own);
@@ -253,14 +256,14 @@ namespace
     const auto   scene = cubic(0.49);
     const auto   body  = box(Point<3>(1, 1, 1), {{4, 4, 4}}, 0.2);
     const Solved linear(scene, body, 1), quadratic(scene, body, 2);
-    const double error = compare::difference_to_exact(*linear.solution.displacement,
+    const double error = compare::difference_to_exact(*linear.displacement,
                                                       scene.exact_solution,
                                                       *linear.materials,
                                                       MPI_COMM_WORLD)
                            .energy;
     const auto bound = [&](const double near) {
-      return estimate::equilibrated_bound(*linear.solution.displacement,
-                                          *quadratic.solution.displacement,
+      return estimate::equilibrated_bound(*linear.displacement,
+                                          *quadratic.displacement,
                                           scene,
                                           *linear.materials,
                                           MPI_COMM_WORLD,
@@ -279,7 +282,7 @@ namespace
     for (const double nu : {0.3, 0.49})
       {
         const Solved s(cubic(nu), box(Point<3>(1, 1, 1), {{4, 4, 4}}), degree);
-        const auto   difference = compare::difference_to_exact(*s.solution.displacement,
+        const auto   difference = compare::difference_to_exact(*s.displacement,
                                                              s.scene.exact_solution,
                                                              *s.materials,
                                                              MPI_COMM_WORLD);
@@ -336,7 +339,7 @@ namespace
       {
         const Solved s(scene, box(Point<3>(1, 1, 1), {{n, n, n}}), degree);
         const auto   bound = s.bound();
-        const double error = compare::difference_to_exact(*s.solution.displacement,
+        const double error = compare::difference_to_exact(*s.displacement,
                                                           scene.exact_solution,
                                                           *s.materials,
                                                           MPI_COMM_WORLD)

@@ -5,6 +5,7 @@
 
 #include "tetradapt/estimate/goal_functional.h"
 #include "tetradapt/estimate/goal_oriented.h"
+#include "tetradapt/fem/replication.h"
 
 #include "polynomials.h"
 
@@ -55,8 +56,11 @@ namespace
     const auto                   field = std::make_shared<mesh::NodalField>(body, degree);
     for (unsigned int i = 0; i < field->n_nodes(); ++i)
       field->values[i] = displacement(field->node_position(i));
-    estimate::Comparison comparison(
-      field, materials, scene.exact_solution, nullptr, MPI_COMM_WORLD);
+    estimate::Comparison comparison(fem::distribute(*field, MPI_COMM_WORLD),
+                                    materials,
+                                    scene.exact_solution,
+                                    nullptr,
+                                    MPI_COMM_WORLD);
     return estimate::evaluate_goals(scene, comparison).at(0).value;
   }
 

@@ -5,7 +5,7 @@
 // numbers agree with the handler's. The handler numbers nodes in the order in which cells name
 // them.
 
-#include "tetradapt/fem/space.h"
+#include "tetradapt/fem/replication.h"
 #include "tetradapt/fem/triangulation.h"
 
 #include "../mechanics/bodies.h"
@@ -77,7 +77,7 @@ namespace
   check_linear_part(const fem::Space &quadratic)
   {
     const auto       part = fem::Space::linear_part(quadratic);
-    const fem::Space whole(quadratic.triangulation(), 1, nullptr);
+    const fem::Space whole(quadratic.shared_triangulation(), 1);
     bool             same = part->touching_cells() == whole.touching_cells()
                 && part->n_owned_nodes() == whole.n_owned_nodes()
                 && part->n_local_nodes() == whole.n_local_nodes()
@@ -93,19 +93,18 @@ namespace
   }
 
   void
-  check_space(const fem::Triangulation &triangulation,
-              const unsigned int        degree,
-              const mesh::EdgeTable    &edges)
+  check_space(const std::shared_ptr<const fem::Triangulation> &triangulation,
+              const unsigned int                               degree)
   {
     using dealii::types::global_dof_index;
-    const fem::Space   space(triangulation, degree, &edges);
+    const fem::Space   space(triangulation, degree);
     const unsigned int n_nodes = space.n_nodes_per_cell();
 
     // Every rank numbers all nodes.
     std::vector<global_dof_index> numbers(space.n_field_nodes(),
                                           dealii::numbers::invalid_dof_index);
     global_dof_index              next = 0;
-    for (const unsigned int cell : triangulation.partition().order())
+    for (const unsigned int cell : triangulation->partition().order())
       for (unsigned int i = 0; i < n_nodes; ++i)
         if (auto &number = numbers[space.cell_node(cell, i)];
             number == dealii::numbers::invalid_dof_index)
@@ -120,7 +119,7 @@ namespace
       {
         if (cell->is_artificial())
           continue;
-        const unsigned int mesh_cell = triangulation.mesh_cell(cell->index());
+        const unsigned int mesh_cell = triangulation->mesh_cell(cell->index());
         cell->get_dof_indices(dofs);
         for (unsigned int i = 0; i < 3 * n_nodes; ++i)
           in_order = in_order && dofs[i] == 3 * numbers[space.cell_node(mesh_cell, i / 3)] + i % 3;
@@ -145,9 +144,8 @@ namespace
     fem::Vector x(space.vector_layout());
     for (const auto i : x.locally_owned_elements())
       x[i] = i;
-    std::vector<Tensor<1, 3>> field;
-    space.gather(x, field);
-    bool whole = true;
+    const auto field = fem::replicate(space, x);
+    bool       whole = true;
     for (unsigned int node = 0; node < field.size(); ++node)
       for (unsigned int c = 0; c < 3; ++c)
         whole = whole && field[node][c] == 3. * numbers[node] + c;
@@ -171,24 +169,22 @@ main(int argc, char *argv[])
       select(*body, scene);
       if (is_first_rank)
         std::cout << "--- " << n[0] << " x " << n[1] << " x " << n[2] << " bricks\n";
-      const fem::Triangulation triangulation(*body, MPI_COMM_WORLD);
-      check_triangulation(*body, triangulation);
-      const mesh::EdgeTable edges = mesh::build_edges(*body);
-      check_space(triangulation, 1, edges);
-      check_space(triangulation, 2, edges);
+      const auto triangulation = std::make_shared<const fem::Triangulation>(body, MPI_COMM_WORLD);
+      check_triangulation(*body, *triangulation);
+      check_space(triangulation, 1);
+      check_space(triangulation, 2);
     }
 
   // More ranks than cells.
-  mesh::TetMesh body;
-  body.points  = {Point<3>(), Point<3>(1, 0, 0), Point<3>(0, 1, 0), Point<3>(0, 0, 1)};
-  body.cells   = {{{0, 1, 2, 3}}};
-  body.regions = {0};
-  mesh::finalize(body, "one cell");
+  const auto body = std::make_shared<mesh::TetMesh>();
+  body->points    = {Point<3>(), Point<3>(1, 0, 0), Point<3>(0, 1, 0), Point<3>(0, 0, 1)};
+  body->cells     = {{{0, 1, 2, 3}}};
+  body->regions   = {0};
+  mesh::finalize(*body, "one cell");
   if (is_first_rank)
     std::cout << "--- one cell\n";
-  const fem::Triangulation triangulation(body, MPI_COMM_WORLD);
-  check_triangulation(body, triangulation);
-  const mesh::EdgeTable edges = mesh::build_edges(body);
-  check_space(triangulation, 1, edges);
-  check_space(triangulation, 2, edges);
+  const auto triangulation = std::make_shared<const fem::Triangulation>(body, MPI_COMM_WORLD);
+  check_triangulation(*body, *triangulation);
+  check_space(triangulation, 1);
+  check_space(triangulation, 2);
 }

@@ -180,14 +180,14 @@ namespace
                 const unsigned int                    degree)
   {
     const scene::Scene scene    = sliding_scene();
-    mesh::TetMesh      selected = *body;
-    select(selected, scene);
-    const MaterialMap        materials(scene, selected);
-    const TangentField       tangents(materials, selected);
-    const fem::Triangulation triangulation(selected, MPI_COMM_WORLD);
-    const fem::Space         space(triangulation, degree, &edges);
-    const auto               prescribed
-      = prescribe(scene.supports, selected, degree == 1 ? nullptr : &edges, scene.mesh);
+    const auto         selected = std::make_shared<mesh::TetMesh>(*body);
+    select(*selected, scene);
+    const MaterialMap  materials(scene, *selected);
+    const TangentField tangents(materials, *selected);
+    const auto triangulation = std::make_shared<const fem::Triangulation>(selected, MPI_COMM_WORLD);
+    const fem::Space space(triangulation, degree);
+    const auto       prescribed
+      = prescribe(scene.supports, *selected, degree == 1 ? nullptr : &edges, scene.mesh);
     const fem::Constraints   constraints = make_constraints(prescribed, space);
     const fem::FixedUnknowns fixed(space, constraints);
     Vector                   u(space.vector_layout()), product(u);
@@ -210,8 +210,8 @@ namespace
         for (unsigned int c = 0; c < 3; ++c)
           expected.local_element(3 * node + c) = force[c];
       }
-    const std::vector<Tensor<1, 3>> no_forces(space.n_field_nodes());
-    const LinearSystem              system = assemble(space, tangents, fixed);
+    const Vector       no_forces(space.vector_layout());
+    const LinearSystem system = assemble(space, tangents, fixed);
     system.matrix.vmult(product, u);
     Vector residual = right_hand_side(system, space, fixed, no_forces);
     residual -= product;
@@ -249,10 +249,11 @@ main(int argc, char *argv[])
       {
         if (one_material)
           std::fill(body->regions.begin(), body->regions.end(), 1);
-        const MaterialMap        materials(scene, *body);
-        const TangentField       tangents(materials, *body);
-        const fem::Triangulation body_of_materials(*body, MPI_COMM_WORLD);
-        const fem::Space         space(body_of_materials, degree, &edges);
+        const MaterialMap  materials(scene, *body);
+        const TangentField tangents(materials, *body);
+        const auto         body_of_materials
+          = std::make_shared<const fem::Triangulation>(body, MPI_COMM_WORLD);
+        const fem::Space         space(body_of_materials, degree);
         const fem::FixedUnknowns none(space, fem::make_constraints(space));
         Vector                   x(space.vector_layout()), y(x);
         for (const auto i : x.locally_owned_elements())

@@ -45,19 +45,15 @@ namespace
     const auto body                      = box(Point<3>(1, 1, 1), {{n, n, n}});
     select(*body, scene);
     const mechanics::MaterialMap materials(scene, *body);
-    const fem::Triangulation     triangulation(*body, MPI_COMM_WORLD);
-    const mesh::NodalField       field(body, degree);
-    const fem::Space space(triangulation, degree, degree == 2 ? &field.edges() : nullptr);
+    const auto triangulation = std::make_shared<const fem::Triangulation>(body, MPI_COMM_WORLD);
+    const fem::Space space(triangulation, degree);
     auto             loads = mechanics::assemble_loads(scene, materials, space);
     if (load.type != LoadType::temperature)
       return loads.totals[0];
     // A temperature's forces do the work C : alpha int T on a strain: in z, E / (1 - 2 nu).
     double work = 0.;
     for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
-      {
-        const unsigned int f = space.field_node(node);
-        work += loads.forces[f][2] * field.node_position(f)[2];
-      }
+      work += loads.forces.local_element(3 * node + 2) * space.node_position(node)[2];
     loads.totals[0].resultant.force[2] = dealii::Utilities::MPI::sum(work, MPI_COMM_WORLD) / 20.;
     return loads.totals[0];
   }

@@ -4,6 +4,7 @@
 // number of ranks.
 
 #include "tetradapt/mechanics/loads.h"
+#include "tetradapt/fem/replication.h"
 #include "tetradapt/fem/triangulation.h"
 
 #include "bodies.h"
@@ -40,15 +41,10 @@ namespace
     {
       select(*body, scene);
       const mechanics::MaterialMap materials(scene, *body);
-      const fem::Triangulation     triangulation(*body, MPI_COMM_WORLD);
-      const fem::Space space(triangulation, degree, degree == 2 ? &field.edges() : nullptr);
+      const auto triangulation = std::make_shared<const fem::Triangulation>(body, MPI_COMM_WORLD);
+      const fem::Space            space(triangulation, degree);
       const mechanics::NodalLoads loads = mechanics::assemble_loads(scene, materials, space);
-      const Forces               &local = loads.forces;
-      forces.resize(field.n_nodes());
-      for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
-        forces[space.field_node(node)] = local[space.field_node(node)];
-      for (auto &force : forces)
-        force = dealii::Utilities::MPI::sum(force, MPI_COMM_WORLD);
+      forces                            = fem::replicate(space, loads.forces);
       const mechanics::LoadTotal &total = loads.totals.at(0);
       // Temperatures have no resultant.
       if (scene.loads[0].type != LoadType::temperature && first_rank

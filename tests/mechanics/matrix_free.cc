@@ -3,6 +3,7 @@
 // The matrix-free stiffness equals the assembled one, for every form of tangents, with
 // mixed supports, two materials and cells of all shapes, on one rank and on two.
 
+#include "tetradapt/fem/replication.h"
 #include "tetradapt/fem/triangulation.h"
 #include "tetradapt/mechanics/matrix_free_stiffness.h"
 #include "tetradapt/mechanics/stiffness.h"
@@ -81,9 +82,10 @@ namespace
         }
     check_small("  diagonal blocks", worst / scale, tolerance);
 
-    std::vector<Tensor<1, 3>> forces(space.n_field_nodes());
-    for (unsigned int i = 0; i < forces.size(); ++i)
-      forces[i] = Tensor<1, 3>({std::sin(i), std::cos(i), 1.});
+    std::vector<Tensor<1, 3>> values(space.n_field_nodes());
+    for (unsigned int i = 0; i < values.size(); ++i)
+      values[i] = Tensor<1, 3>({std::sin(i), std::cos(i), 1.});
+    const Vector forces = fem::distribute(space, values);
     check_small("  right-hand side",
                 difference(matrix_free.right_hand_side(forces),
                            right_hand_side(assembled, space, fixed, forces)),
@@ -115,10 +117,10 @@ main(int argc, char *argv[])
                                 support("rail", "y < 1e-9 && x > 1", "y", {{"0", "0.1", "0"}})};
   const auto body            = box(Point<3>(3, 1, 1), {{7, 3, 3}}, 0.3, 1.5);
   select(*body, scene);
-  const MaterialMap        materials(scene, *body);
-  const fem::Triangulation triangulation(*body, MPI_COMM_WORLD);
+  const MaterialMap materials(scene, *body);
+  const auto triangulation       = std::make_shared<const fem::Triangulation>(body, MPI_COMM_WORLD);
   const mesh::EdgeTable    edges = mesh::build_edges(*body);
-  const fem::Space         space(triangulation, 2, &edges);
+  const fem::Space         space(triangulation, 2);
   const fem::FixedUnknowns fixed(space,
                                  make_constraints(prescribe(scene.supports, *body, &edges), space));
 
@@ -140,7 +142,7 @@ main(int argc, char *argv[])
   compare<double>("one a point", space, TangentField(tensors, four, 4), fixed, 1e-13);
 
   // The matrix of degree 1 is that of degree 2 on linear displacements.
-  const fem::Space                  linear(triangulation, 1, nullptr);
+  const fem::Space                  linear(triangulation, 1);
   const TangentField                tangents(tensors, four, 4);
   const fem::FixedUnknowns          none(linear, fem::make_constraints(linear));
   const LinearSystem                coarse = assemble(linear, tangents, none);

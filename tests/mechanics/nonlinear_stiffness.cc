@@ -6,6 +6,7 @@
 // several ranks the sums are those of one.
 
 #include "tetradapt/mechanics/nonlinear_stiffness.h"
+#include "tetradapt/fem/replication.h"
 #include "tetradapt/fem/triangulation.h"
 #include "tetradapt/laws/linear_elastic.h"
 #include "tetradapt/mechanics/matrix_free_stiffness.h"
@@ -73,12 +74,12 @@ namespace
   void
   check_degree(const unsigned int degree)
   {
-    const auto                   body  = box(Point<3>(2., 1., 1.), {{3, 2, 2}}, 0.2, 1.);
-    const scene::Scene           scene = two_laws();
-    const auto                   edges = mesh::build_edges(*body);
-    const fem::Triangulation     triangulation(*body, MPI_COMM_WORLD);
-    const fem::Space             space(triangulation, degree, degree == 2 ? &edges : nullptr);
-    const mechanics::MaterialMap materials(scene, *body);
+    const auto         body  = box(Point<3>(2., 1., 1.), {{3, 2, 2}}, 0.2, 1.);
+    const scene::Scene scene = two_laws();
+    const auto         edges = mesh::build_edges(*body);
+    const auto triangulation = std::make_shared<const fem::Triangulation>(body, MPI_COMM_WORLD);
+    const fem::Space                    space(triangulation, degree);
+    const mechanics::MaterialMap        materials(scene, *body);
     const mechanics::NonlinearStiffness stiffness(space, materials);
 
     const Vector u = displacement(space, 0.1, 0.), v = displacement(space, 1., 2.);
@@ -135,16 +136,12 @@ namespace
         free.close();
         const auto coarse
           = mechanics::assemble(*linear, tangents, fem::FixedUnknowns(*linear, free));
-        Vector w(linear->vector_layout()), image(linear->vector_layout());
-        std::vector<dealii::Tensor<1, 3>> field;
-        space.gather(v, field);
-        std::vector<dealii::Tensor<1, 3>> whole(field);
+        Vector     w(linear->vector_layout()), image(linear->vector_layout());
+        const auto field = fem::replicate(space, v);
+        auto       whole = field;
         for (unsigned int e = 0; e < edges.edges.size(); ++e)
           whole[body->n_points() + e] = 0.5 * (field[edges.edges[e][0]] + field[edges.edges[e][1]]);
-        Vector fine(space.vector_layout());
-        for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
-          for (unsigned int c = 0; c < 3; ++c)
-            fine.local_element(3 * node + c) = whole[space.field_node(node)][c];
+        const Vector fine = fem::distribute(space, whole);
         for (unsigned int node = 0; node < linear->n_owned_nodes(); ++node)
           for (unsigned int c = 0; c < 3; ++c)
             w.local_element(3 * node + c) = field[linear->field_node(node)][c];

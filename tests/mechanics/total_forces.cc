@@ -74,9 +74,8 @@ namespace
   {
     select(*body, scene);
     const mechanics::MaterialMap materials(scene, *body);
-    const fem::Triangulation     triangulation(*body, MPI_COMM_WORLD);
-    const mesh::NodalField       field(body, degree);
-    const fem::Space space(triangulation, degree, degree == 2 ? &field.edges() : nullptr);
+    const auto triangulation = std::make_shared<const fem::Triangulation>(body, MPI_COMM_WORLD);
+    const fem::Space space(triangulation, degree);
     return mechanics::assemble_loads(scene, materials, space).totals.at(0);
   }
 

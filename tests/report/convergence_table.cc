@@ -165,7 +165,7 @@ main()
   table.run_started(scene);
   for (unsigned int cycle = 0; cycle < 2; ++cycle)
     {
-      table.cycle_done({records[cycle], field, materials, nullptr, nullptr});
+      table.cycle_done({records[cycle], field.mesh(), &field, materials, nullptr, nullptr});
       const std::vector<adapt::CycleRecord> so_far(records.begin(), records.begin() + cycle + 1);
       std::cout << "cycle " << cycle << ": csv "
                 << (content(folder + "/convergence.csv") == report::csv_table(so_far)) << ", txt "
@@ -178,12 +178,12 @@ main()
 
   // No files and no terminal asked for: none touched. A folder that is gone: said.
   report::ConvergenceTable silent(nullptr, nullptr, log);
-  silent.cycle_done({records[0], field, materials, nullptr, nullptr});
+  silent.cycle_done({records[0], field.mesh(), &field, materials, nullptr, nullptr});
   std::cout << "silent rows " << silent.records().size() << std::endl;
   fs::remove_all(folder);
   try
     {
-      table.cycle_done({records[0], field, materials, nullptr, nullptr});
+      table.cycle_done({records[0], field.mesh(), &field, materials, nullptr, nullptr});
     }
   catch (const core::InputError &e)
     {

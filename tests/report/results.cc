@@ -88,11 +88,11 @@ main()
     [](const core::LogLevel, const std::string &text) { std::cout << "log: " << text << '\n'; });
   report::ResultsSummary summary(&folder, log);
   summary.run_started(scene);
-  summary.cycle_done({make_record(), field, materials, nullptr, nullptr});
+  summary.cycle_done({make_record(), field.mesh(), &field, materials, nullptr, nullptr});
   adapt::CycleRecord worse = make_record();
   worse.cycle              = 3;
   worse.acceptance         = adapt::Acceptance::rejected;
-  summary.cycle_done({worse, field, materials, nullptr, nullptr});
+  summary.cycle_done({worse, field.mesh(), &field, materials, nullptr, nullptr});
   summary.run_done({});
   std::cout << "files agree: "
             << (content("results_scratch/results.csv") == report::csv_results(results))
@@ -104,7 +104,7 @@ main()
   worse.acceptance   = adapt::Acceptance::accepted;
   worse.error_source = adapt::ErrorSource::none;
   summary.run_started(scene);
-  summary.cycle_done({worse, field, materials, nullptr, nullptr});
+  summary.cycle_done({worse, field.mesh(), &field, materials, nullptr, nullptr});
   summary.run_done({});
   std::cout << "nothing known, no files: " << !fs::exists("results_scratch/results.csv")
             << !fs::exists("results_scratch/results.txt") << '\n';

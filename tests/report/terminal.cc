@@ -120,7 +120,7 @@ namespace
     report::ConvergenceTable     table(nullptr, &terminal, log);
     table.run_started(scene);
     for (unsigned int cycle = 0; cycle < 45; ++cycle)
-      table.cycle_done({full_record(cycle), field, materials, nullptr, nullptr});
+      table.cycle_done({full_record(cycle), field.mesh(), &field, materials, nullptr, nullptr});
     std::istringstream in(terminal.str());
     unsigned int       row = 0;
     for (std::string line; std::getline(in, line); ++row)

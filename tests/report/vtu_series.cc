@@ -97,7 +97,8 @@ test_run(const unsigned int degree, const bool full)
   report::VtuSeries    series(results, full);
   series.run_started(scene);
   for (record.cycle = 0; record.cycle < 2; ++record.cycle)
-    series.cycle_done({record, u, materials, full ? &indicators : nullptr, full ? &ren : nullptr});
+    series.cycle_done(
+      {record, u.mesh(), &u, materials, full ? &indicators : nullptr, full ? &ren : nullptr});
 
   std::cout << "degree " << degree << (full ? ", all data" : ", displacement only") << std::endl;
   const std::string path = folder + "/cycle_001.vtu";

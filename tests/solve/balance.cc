@@ -271,9 +271,9 @@ main(int argc, char *argv[])
       const solve::StaticSystem    system(
         scene, materials, mesh, scene.degree, MPI_COMM_SELF, core::Log());
       const auto solution = system.solve(nullptr, {});
-      const auto forces   = system.equilibrium(
-        solution,
-        mechanics::compute_region_figures(*solution.displacement, materials, MPI_COMM_SELF));
+      const auto forces
+        = system.equilibrium(solution,
+                             mechanics::compute_region_figures(*solution.displacement, materials));
       ++n_scenes;
       if (!(forces.relative_imbalance <= 1e-8) || !forces.is_balanced())
         {

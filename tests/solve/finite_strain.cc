@@ -146,7 +146,7 @@ namespace
       }
     const double b = 0.5 * (low + high), J = stretch * b * b;
     double       error = 0.;
-    const auto  &u     = *solution.displacement;
+    const auto  &u     = *solution.whole;
     for (unsigned int node = 0; node < u.n_nodes(); ++node)
       {
         const auto x = u.node_position(node);
@@ -204,10 +204,10 @@ namespace
     const auto body     = box(Point<3>(10., 1., 1.), {{12, 2, 2}}, 0.);
     const auto solution = solve_scene(scene, body, degree);
     double     lowest   = 0.;
-    for (const auto &u : solution.displacement->values)
+    for (const auto &u : solution.whole->values)
       lowest = std::min(lowest, u[2]);
     // From the solution no step is left to do.
-    const auto again = solve_scene(scene, body, degree, solution.displacement.get());
+    const auto again = solve_scene(scene, body, degree, solution.whole.get());
     say("from there no step is needed", again.solver.find(" 0 steps") != std::string::npos, 1., 0.);
     say("the same energy", again.strain_energy / solution.strain_energy, 1., 1e-9);
     // Iterations lead to the same place.
@@ -237,9 +237,9 @@ namespace
     select(*body, scene);
     const mechanics::MaterialMap materials(scene, *body);
     const auto                   edges = mesh::build_edges(*body);
-    const fem::Triangulation     triangulation(*body, MPI_COMM_WORLD);
-    const fem::Space             space(triangulation, degree, degree == 2 ? &edges : nullptr);
-    const auto                   prescribed
+    const auto triangulation = std::make_shared<const fem::Triangulation>(body, MPI_COMM_WORLD);
+    const fem::Space space(triangulation, degree);
+    const auto       prescribed
       = mechanics::prescribe(scene.supports, *body, degree == 2 ? &edges : nullptr);
     const auto             forces = mechanics::assemble_loads(scene, materials, space).forces;
     const core::Log        log;
@@ -270,18 +270,18 @@ namespace
     scene.supports   = {support("left", "x < 1e-9", "xyz", {{"0.3", "0", "-0.2"}})};
     const auto moved = solve_scene(scene, body, 2);
     double     error = 0.;
-    for (const auto &u : moved.displacement->values)
+    for (const auto &u : moved.whole->values)
       error = std::max(error, (u - Tensor<1, 3>({0.3, 0., -0.2})).norm());
     say("only moved", error, 0., 1e-12);
     const Texts turned{{"-0.5*x - sqrt(0.75)*y", "sqrt(0.75)*x - 0.5*y", "0"}};
     scene.supports      = {support("left", "x < 1e-9", "xyz", turned)};
     error               = 0.;
     const auto solution = solve_scene(scene, body, 1);
-    for (unsigned int node = 0; node < solution.displacement->n_nodes(); ++node)
+    for (unsigned int node = 0; node < solution.whole->n_nodes(); ++node)
       {
-        const auto x = solution.displacement->node_position(node);
+        const auto x = solution.whole->node_position(node);
         error        = std::max(error,
-                         (solution.displacement->values[node]
+                         (solution.whole->values[node]
                           - Tensor<1, 3>({-0.5 * x[0] - std::sqrt(0.75) * x[1],
                                                  std::sqrt(0.75) * x[0] - 0.5 * x[1],
                                                  0.}))
@@ -361,7 +361,7 @@ namespace
     const auto body     = box(Point<3>(2., 1., 1.), {{3, 2, 2}});
     const auto solution = solve_scene(scene, body, 1);
     double     least    = 0.;
-    for (const auto &u : solution.displacement->values)
+    for (const auto &u : solution.whole->values)
       least = std::min(least, u[0]);
     // P = E/2 l (l^2 - 1) by Newton's method in one number.
     double l = 0.7;

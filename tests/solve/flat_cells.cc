@@ -117,9 +117,9 @@ namespace
   bool
   is_flat(const Body &body)
   {
-    const fem::Triangulation triangulation(*body, MPI_COMM_WORLD);
-    const mesh::EdgeTable    edges = mesh::build_edges(*body);
-    const fem::Space         space(triangulation, 2, &edges);
+    const auto triangulation    = std::make_shared<const fem::Triangulation>(body, MPI_COMM_WORLD);
+    const mesh::EdgeTable edges = mesh::build_edges(*body);
+    const fem::Space      space(triangulation, 2);
     return solve::find_flat_nodes(space).exist;
   }
 

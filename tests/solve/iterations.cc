@@ -4,6 +4,7 @@
 // their control, which NaN never ends as success; the smoother's eigenvalue; the inverses of
 // blocks; aggregates; and the preconditioner in single precision that gives way to one in double.
 
+#include "tetradapt/fem/replication.h"
 #include "tetradapt/fem/triangulation.h"
 #include "tetradapt/mechanics/supports.h"
 #include "tetradapt/solve/aggregation.h"
@@ -283,8 +284,7 @@ namespace
     log.add_sink([&](core::LogLevel, const std::string &text) {
       is_double = is_double || text.find("double precision") != std::string::npos;
     });
-    const double cg
-      = solve::solve_static(scene, halves, body, 2, MPI_COMM_WORLD, log, nullptr).energy;
+    const double cg    = solve::solve_static(scene, halves, body, 2, MPI_COMM_WORLD, log).energy;
     scene.solver.type  = SolverType::direct;
     const double exact = solve_scene(scene, body, 2).energy;
     check("the preconditioner was made again in double precision", is_double);
@@ -292,11 +292,11 @@ namespace
 
     const core::Log silent;
     using mechanics::MaterialMap;
-    const MaterialMap        materials(scene, *body);
-    const mesh::EdgeTable    edges = mesh::build_edges(*body);
-    const fem::Triangulation triangulation(*body, MPI_COMM_WORLD);
-    const fem::Space         space(triangulation, 2, &edges);
-    const fem::Constraints   constraints
+    const MaterialMap     materials(scene, *body);
+    const mesh::EdgeTable edges = mesh::build_edges(*body);
+    const auto triangulation    = std::make_shared<const fem::Triangulation>(body, MPI_COMM_WORLD);
+    const fem::Space       space(triangulation, 2);
+    const fem::Constraints constraints
       = mechanics::make_constraints(mechanics::prescribe(scene.supports, *body, &edges), space);
     std::vector<Tensor<1, 3>> forces(space.n_field_nodes());
     for (auto &force : forces)
@@ -310,7 +310,7 @@ namespace
         {
           const LinearSolver solver({space, tangents, constraints}, scene.solver, silent);
           Vector             x(space.vector_layout());
-          solver.solve(solver.right_hand_side(forces), {}, "The loads", x);
+          solver.solve(solver.right_hand_side(fem::distribute(space, forces)), {}, "The loads", x);
           std::cout << "SOLVED\n";
         }
       catch (const core::NumericalError &)

@@ -42,7 +42,7 @@ namespace
     const unsigned int n   = degree == 1 ? 8 : 4;
     const auto         result
       = solve_scene(scene, box(Point<3>(3, 1, 1), {{3 * n, n, n}}, 0.2, 1.5), degree);
-    const auto &u       = result.displacement->values;
+    const auto &u       = result.whole->values;
     double      largest = 0., weighted = 0.;
     for (unsigned int node = 0; node < u.size(); ++node)
       {

@@ -87,9 +87,8 @@ namespace
       scene, materials, selected, degree, MPI_COMM_WORLD, core::Log());
     const auto solution = system.solve(nullptr, stop);
     Solved     result;
-    result.regions
-      = mechanics::compute_region_figures(*solution.displacement, materials, MPI_COMM_WORLD);
-    result.forces = system.equilibrium(solution, result.regions);
+    result.regions = mechanics::compute_region_figures(*solution.displacement, materials);
+    result.forces  = system.equilibrium(solution, result.regions);
     return result;
   }
 

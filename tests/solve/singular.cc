@@ -4,6 +4,7 @@
 // nobody refused them before; soft, long and flat ones, which are solved; and iterations
 // that are too many.
 
+#include "tetradapt/fem/replication.h"
 #include "tetradapt/fem/triangulation.h"
 #include "tetradapt/solve/linear_solver.h"
 
@@ -36,9 +37,9 @@ namespace
     for (unsigned int p = 0; p < body->n_points(); ++p)
       if (is_held(body->points[p]))
         prescribed.fixed[p] = 7;
-    const fem::Triangulation      triangulation(*body, MPI_COMM_WORLD);
+    const auto triangulation = std::make_shared<const fem::Triangulation>(body, MPI_COMM_WORLD);
     const mechanics::TangentField tangents(materials, *body);
-    const fem::Space              space(triangulation, degree, degree == 2 ? &edges : nullptr);
+    const fem::Space              space(triangulation, degree);
     try
       {
         const core::Log           log;
@@ -48,7 +49,7 @@ namespace
         for (unsigned int p = 0; p < body->n_points(); ++p)
           forces[p][2] = -1.; // not in balance
         solve::Vector x(space.vector_layout());
-        solver.solve(solver.right_hand_side(forces), {}, "The loads", x);
+        solver.solve(solver.right_hand_side(fem::distribute(space, forces)), {}, "The loads", x);
         return "SOLVED";
       }
     catch (const core::NumericalError &error)

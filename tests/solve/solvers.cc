@@ -48,14 +48,14 @@ namespace
     const auto iterative    = solve_scene(scene, body, degree);
     std::cout << name << ", P" << degree << ": " << direct.n_dofs << " unknowns\n  "
               << direct.solver << ", " << iterative.solver << '\n';
-    check("  equal to 1e-6", distance(*direct.displacement, *iterative.displacement) < 1e-6);
+    check("  equal to 1e-6", distance(*direct.whole, *iterative.whole) < 1e-6);
     check("  energy", iterative.energy, direct.energy, direct.energy, 1e-7);
     const bool few = iterative.iterations >= 5 && iterative.iterations <= most;
     std::cout << "  iterations between 5 and " << most << ": "
               << (few ? "yes" : "NO, " + std::to_string(iterative.iterations)) << '\n';
     check("  none for the direct solver", direct.iterations == 0);
 
-    const auto again = solve_scene(scene, body, degree, iterative.displacement.get());
+    const auto again = solve_scene(scene, body, degree, iterative.whole.get());
     // None, but for rounding.
     check("  few more from the solution", 4 * again.iterations <= iterative.iterations);
     scene.solver.max_iterations = 3;
@@ -90,7 +90,7 @@ namespace
     // All surface points moved alike: the rest follows.
     const auto moved = solve_scene(scene, body, 1);
     double     error = 0.;
-    for (const auto &u : moved.displacement->values)
+    for (const auto &u : moved.whole->values)
       error = std::max(error, (u - Tensor<1, 3>({0.5, 0., 0.})).norm());
     check("moved as a whole", error, 0., 0.5, 1e-8);
     scene.supports[0].displacement = {{"0", "0", "0"}};

@@ -2,6 +2,7 @@
 #ifndef tetradapt_tests_solve_solving_h
 #define tetradapt_tests_solve_solving_h
 
+#include "tetradapt/fem/replication.h"
 #include "tetradapt/solve/static_solution.h"
 
 #include "../mechanics/bodies.h"
@@ -10,8 +11,14 @@ namespace bodies
 {
   using SolverType = scene::SolverParameters::Type;
 
+  /** A solution, and its displacement on every rank. */
+  struct WholeSolution : solve::StaticSolution
+  {
+    std::shared_ptr<const mesh::NodalField> whole;
+  };
+
   /** Solves @p scene on @p body with all ranks, and without messages. */
-  inline solve::StaticSolution
+  inline WholeSolution
   solve_scene(const scene::Scene                   &scene,
               const std::shared_ptr<mesh::TetMesh> &body,
               const unsigned int                    degree,
@@ -20,8 +27,14 @@ namespace bodies
     auto selected = std::make_shared<mesh::TetMesh>(*body);
     select(*selected, scene);
     const mechanics::MaterialMap materials(scene, *selected);
-    return solve::solve_static(
-      scene, materials, selected, degree, MPI_COMM_WORLD, core::Log(), start);
+    const solve::StaticSystem    system(
+      scene, materials, selected, degree, MPI_COMM_WORLD, core::Log());
+    std::shared_ptr<const fem::Field> first;
+    if (start != nullptr)
+      first = fem::distribute(*start, system.space());
+    WholeSolution result{system.solve(first.get(), {}), nullptr};
+    result.whole = fem::replicate(*result.displacement);
+    return result;
   }
 } // namespace bodies
 

@@ -3,6 +3,7 @@
 // Springs: their matrix in all forms of the stiffness, exact solutions, what they add to energies
 // and reactions, and what they hold.
 
+#include "tetradapt/fem/replication.h"
 #include "tetradapt/fem/triangulation.h"
 #include "tetradapt/mechanics/matrix_free_stiffness.h"
 #include "tetradapt/mechanics/rigid_motions.h"
@@ -169,14 +170,14 @@ namespace
   matrices()
   {
     say("matrices");
-    auto scene                         = make_scene(0.3, SolverType::cg);
-    scene.supports                     = many_supports();
-    const auto                    body = selected(scene, box(Point<3>(2, 1, 1), {{3, 2, 2}}));
-    const mechanics::MaterialMap  materials(scene, *body);
-    const fem::Triangulation      triangulation(*body, MPI_COMM_WORLD);
+    auto scene                        = make_scene(0.3, SolverType::cg);
+    scene.supports                    = many_supports();
+    const auto                   body = selected(scene, box(Point<3>(2, 1, 1), {{3, 2, 2}}));
+    const mechanics::MaterialMap materials(scene, *body);
+    const auto triangulation = std::make_shared<const fem::Triangulation>(body, MPI_COMM_WORLD);
     const mechanics::TangentField tangents(materials, *body);
     const mesh::EdgeTable         edges = mesh::build_edges(*body);
-    const fem::Space              space(triangulation, 2, &edges);
+    const fem::Space              space(triangulation, 2);
     const mechanics::Springs      springs(scene, *body);
     const auto                    matrix = mechanics::make_spring_matrix(springs, space);
     const fem::FixedUnknowns      fixed(
@@ -209,8 +210,9 @@ namespace
 
   struct Solved
   {
-    solve::StaticSolution solution;
-    solve::Equilibrium    forces;
+    solve::StaticSolution                   solution;
+    std::shared_ptr<const mesh::NodalField> displacement; ///< on every rank
+    solve::Equilibrium                      forces;
   };
 
   Solved
@@ -221,10 +223,11 @@ namespace
     const auto                   mesh = selected(scene, body);
     const mechanics::MaterialMap materials(scene, *mesh);
     const solve::StaticSystem system(scene, materials, mesh, degree, MPI_COMM_WORLD, core::Log());
-    Solved                    result{system.solve(nullptr, {}), {}};
+    Solved                    result{system.solve(nullptr, {}), nullptr, {}};
     const auto                regions
-      = mechanics::compute_region_figures(*result.solution.displacement, materials, MPI_COMM_WORLD);
-    result.forces = system.equilibrium(result.solution, regions);
+      = mechanics::compute_region_figures(*result.solution.displacement, materials);
+    result.displacement = fem::replicate(*result.solution.displacement);
+    result.forces       = system.equilibrium(result.solution, regions);
     expect("balance", result.forces.is_balanced() && result.forces.relative_imbalance < 1e-9);
     return result;
   }
@@ -248,7 +251,7 @@ namespace
     const auto  result = solved(scene, box(Point<3>(2, 1, 1), {{5, 3, 3}}), degree);
     const auto &u      = result.solution;
     expect("displacement",
-           largest_error(*u.displacement,
+           largest_error(*result.displacement,
                          [](const Point<3> &x) {
                            return Vector3({3. / 50. + 3. * x[0] / 20., 0., 0.});
                          }),
@@ -276,7 +279,7 @@ namespace
     const auto body   = box(Point<3>(2, 1, 1), {{4, 2, 2}});
     auto       result = solved(scene, body, degree);
     expect("as a whole",
-           largest_error(*result.solution.displacement,
+           largest_error(*result.displacement,
                          [](const Point<3> &x) {
                            return Vector3({1. - 0.1 * x[1], 0.1 * x[0], 2.});
                          }),
@@ -295,7 +298,7 @@ namespace
     // The springs' stiffness is in series with E / L = 10: 50/60 of the way is the body's.
     const double strain = 0.4 * 50. / 60. / 2.;
     expect("stretched",
-           largest_error(*result.solution.displacement,
+           largest_error(*result.displacement,
                          [&](const Point<3> &x) {
                            return Vector3({strain * x[0], 0., 0.});
                          }),
@@ -348,9 +351,8 @@ namespace
       scene.supports[1].displacement = {{"0.1*y*z", "0.2 + x", "z^2"}};
     else
       scene.loads = {load("weight", LoadType::gravity, "", {{"1", "-10", "2"}})};
-    const auto body             = box(Point<3>(2, 1, 1), {{3, 2, 2}});
-    const auto linear           = solved(scene, body, 1).solution,
-               quadratic        = solved(scene, body, 2).solution;
+    const auto       body   = box(Point<3>(2, 1, 1), {{3, 2, 2}});
+    const auto       linear = solved(scene, body, 1), quadratic = solved(scene, body, 2);
     mesh::NodalField difference = *quadratic.displacement;
     const auto      &edges      = difference.edges().edges;
     const auto      &u          = linear.displacement->values;
@@ -358,13 +360,14 @@ namespace
       difference.values[i] -= u[i];
     for (unsigned int e = 0; e < edges.size(); ++e)
       difference.values[u.size() + e] -= 0.5 * (u[edges[e][0]] + u[edges[e][1]]);
+    const auto                   distributed = fem::distribute(difference, MPI_COMM_WORLD);
     const mechanics::MaterialMap materials(scene, difference.mesh());
-    const double of_body = solve::compute_energies(difference, materials, MPI_COMM_WORLD).energy;
+    const double                 of_body = solve::compute_energies(*distributed, materials).energy;
     for (auto &support : scene.supports)
       support.displacement.fill("0");
     const mechanics::Springs at_rest(scene, difference.mesh());
-    const double             of_springs = 2. * mechanics::spring_forces(at_rest, difference).energy;
-    const double             gap        = (moves ? -1. : 1.) * (quadratic.energy - linear.energy);
+    const double of_springs = 2. * mechanics::spring_forces(at_rest, *distributed).energy;
+    const double gap = (moves ? -1. : 1.) * (quadratic.solution.energy - linear.solution.energy);
     expect(moves ? "moved ground" : "loads", gap, of_body + of_springs, gap, 1e-8);
     expect("springs count", of_springs > 0.01 * gap);
   }

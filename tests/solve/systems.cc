@@ -3,6 +3,7 @@
 // A system that is kept: dual solutions, conjugate gradients that stop at the error
 // that is allowed, and an energy that hardly feels it.
 
+#include "tetradapt/fem/replication.h"
 #include "tetradapt/solve/energies.h"
 
 #include "solving.h"
@@ -11,27 +12,16 @@
 
 using namespace bodies;
 using scene::LoadType;
-using NodalValues = std::vector<Tensor<1, 3>>;
 
 namespace
 {
+  /** Energy norm of the difference of two fields of one space. */
   double
-  product(const NodalValues &a, const NodalValues &b)
+  distance(const fem::Field &a, const fem::Field &b, const mechanics::MaterialMap &m)
   {
-    double sum = 0.;
-    for (unsigned int i = 0; i < a.size(); ++i)
-      sum += a[i] * b[i];
-    return sum;
-  }
-
-  /** Energy norm of the difference of two fields. */
-  double
-  distance(const mesh::NodalField &a, const mesh::NodalField &b, const mechanics::MaterialMap &m)
-  {
-    mesh::NodalField difference = a;
-    for (unsigned int i = 0; i < a.n_nodes(); ++i)
-      difference.values[i] -= b.values[i];
-    return std::sqrt(solve::compute_energies(difference, m, MPI_COMM_WORLD).energy);
+    fem::Vector difference(a.vector());
+    difference -= b.vector();
+    return std::sqrt(solve::compute_energies(fem::Field(a.shared_space(), difference), m).energy);
   }
 
   scene::Scene
@@ -56,21 +46,19 @@ namespace
     const mechanics::MaterialMap materials(scene, *body);
     const solve::StaticSystem system(scene, materials, body, degree, MPI_COMM_WORLD, core::Log());
     const auto                solution = system.solve(nullptr, {});
-    NodalValues               forces(solution.displacement->n_nodes());
-    for (unsigned int i = 0; i < forces.size(); ++i)
-      forces[i] = Tensor<1, 3>({std::sin(i), std::cos(3. * i), 1.});
-    const auto   dual  = system.solve_dual(forces, {});
-    const double goal  = product(forces, solution.displacement->values);
-    double       moved = 0.;
-    for (unsigned int i = 0; i < forces.size(); ++i)
-      if (system.prescribed().is_fixed(i, 0))
-        moved = std::max(moved, dual->values[i].norm());
+    const fem::Space         &space    = *system.space();
+    std::vector<Tensor<1, 3>> values(space.n_field_nodes());
+    for (unsigned int i = 0; i < values.size(); ++i)
+      values[i] = Tensor<1, 3>({std::sin(i), std::cos(3. * i), 1.});
+    const fem::Vector forces = fem::distribute(space, values);
+    const auto        dual   = system.solve_dual(forces, {});
+    const double      goal   = forces * solution.displacement->vector();
+    double            moved  = 0.;
+    for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
+      if (system.prescribed().is_fixed(space.field_node(node), 0))
+        moved = std::max(moved, dual->value(node).norm());
     std::cout << solution.solver << ", P" << degree << '\n';
-    check("  goal by the dual",
-          product(system.nodal_forces(), dual->values),
-          goal,
-          std::abs(goal),
-          1e-7);
+    check("  goal by the dual", system.nodal_forces() * dual->vector(), goal, std::abs(goal), 1e-7);
     check("  the dual rests at supports", moved == 0.);
     check("  and again from the first solution",
           distance(*system.solve(solution.displacement.get(), {}).displacement,
@@ -91,9 +79,13 @@ namespace
     const auto                exact = system.solve(nullptr, {});
     const double              norm  = std::sqrt(exact.energy);
     // A first iterate that is far from the solution in every respect.
-    mesh::NodalField start = *exact.displacement;
-    for (unsigned int i = 0; i < start.n_nodes(); ++i)
-      start.values[i] *= 0.9 + 0.05 * std::sin(7. * start.node_position(i)[0]);
+    const fem::Space &space = *system.space();
+    fem::Vector       values(exact.displacement->vector());
+    for (unsigned int node = 0; node < space.n_owned_nodes(); ++node)
+      for (unsigned int c = 0; c < 3; ++c)
+        values.local_element(3 * node + c)
+          *= 0.9 + 0.05 * std::sin(7. * space.node_position(node)[0]);
+    const fem::Field start(system.space(), values);
 
     std::cout << "P" << degree << ", " << exact.n_dofs << " unknowns\n";
     for (const double allowed : {1e-1, 1e-2, 1e-3})
@@ -104,8 +96,7 @@ namespace
         const auto   tight   = system.solve(&start, {});
         const double error   = distance(*loose.displacement, *exact.displacement, materials);
         const double first_order
-          = std::abs(solve::compute_energies(*loose.displacement, materials, MPI_COMM_WORLD).energy
-                     - exact.energy);
+          = std::abs(solve::compute_energies(*loose.displacement, materials).energy - exact.energy);
         std::cout << "  allowed " << allowed << '\n';
         check("    error below twice that", error > 0. && error < 2. * stop.algebraic_error);
         check("    estimated between a half and twenty times",
@@ -124,8 +115,7 @@ namespace
       }
     solve::StaticSystem::Stop stop;
     stop.relative_error = 1e-3;
-    const auto   forces = system.nodal_forces();
-    const auto   dual   = system.solve_dual(forces, stop);
+    const auto   dual   = system.solve_dual(system.nodal_forces(), stop);
     const double error  = distance(*dual, *exact.displacement, materials);
     check("  relative error of a dual", error > 1e-5 * norm && error < 2e-3 * norm);
   }

@@ -2,10 +2,8 @@
 #ifndef tetradapt_adapt_doubts_h
 #define tetradapt_adapt_doubts_h
 
-#include "tetradapt/mesh/nodal_field.h"
+#include "tetradapt/fem/field.h"
 #include "tetradapt/scene/scene.h"
-
-#include <mpi.h>
 
 #include <string>
 #include <vector>
@@ -31,9 +29,7 @@ namespace tetradapt::adapt
    * @return empty if nothing is doubtful. Collective.
    */
   std::vector<Doubt>
-  doubts_about(const mesh::NodalField &displacement,
-               const scene::Scene     &scene,
-               MPI_Comm                communicator);
+  doubts_about(const fem::Field &displacement, const scene::Scene &scene);
 } // namespace tetradapt::adapt
 
 #endif

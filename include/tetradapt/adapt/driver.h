@@ -61,7 +61,7 @@ namespace tetradapt::adapt
     {
       CycleRecord                           record;
       solve::StaticSolution                 solution;
-      std::unique_ptr<estimate::Comparison> comparison;
+      std::shared_ptr<estimate::Comparison> comparison;
       std::vector<double>                   indicators;
       double                                wanted_indicator_norm = 0.; ///< see MeasuredErrors
       CycleEnergy                           energy;
@@ -138,8 +138,12 @@ namespace tetradapt::adapt
     /** The log, its progress beginning with a cycle's number. */
     core::Log
     in_cycle(unsigned int number) const;
+    /** Keeps what the next solve starts from. */
     void
-    prepare_start(Cycle &cycle);
+    prepare_start(const Cycle &cycle);
+    /** The last displacement in the space of @p system; null: none was kept. */
+    std::shared_ptr<const fem::Field>
+    make_start(const solve::StaticSystem &system);
 
     const scene::Scene            &scene;
     const scene::Plan             &plan;
@@ -159,11 +163,12 @@ namespace tetradapt::adapt
     std::unique_ptr<compare::Reference>               reference;
     std::shared_ptr<const compare::ReferenceSampling> sampling;
     compare::ExcludedRegion                           excluded; ///< what errors leave out
-    std::unique_ptr<mesh::NodalField>                 start;    ///< first iterate of the next solve
-    std::vector<CycleRecord>                          history;
-    std::vector<estimate::EnergyLevel>                levels;  ///< accepted meshes only
-    std::vector<Doubt>                                doubts;  ///< about the last solution
-    std::optional<Cycle>                              present; ///< while it is not decided on
+    /** Of the cycle that the present mesh was made from, until the next solve has started. */
+    std::shared_ptr<estimate::Comparison> before;
+    std::vector<CycleRecord>              history;
+    std::vector<estimate::EnergyLevel>    levels;  ///< accepted meshes only
+    std::vector<Doubt>                    doubts;  ///< about the last solution
+    std::optional<Cycle>                  present; ///< while it is not decided on
     /** The cycle that the next mesh is made from; once it is made, while that can be rejected. */
     std::optional<Cycle> accepted;
     unsigned int         n_rejected = 0;               ///< since then

@@ -3,10 +3,8 @@
 #define tetradapt_adapt_left_out_h
 
 #include "tetradapt/adapt/observer.h"
-#include "tetradapt/compare/excluded_region.h"
+#include "tetradapt/estimate/comparison.h"
 #include "tetradapt/mechanics/energy_norm.h"
-
-#include <mpi.h>
 
 namespace tetradapt::adapt
 {
@@ -27,15 +25,11 @@ namespace tetradapt::adapt
 
   /**
    * What relative errors are relative to, without what is left out: the root of the stress energy
-   * of @p displacement in the other cells. The noise of @p whole is kept, and
+   * of the displacement in the other cells. The noise of @p whole is kept, and
    * @p whole is returned where nothing is left out. Collective.
    */
   mechanics::EnergyNorm
-  norm_outside(const mesh::NodalField        &displacement,
-               const mechanics::MaterialMap  &materials,
-               const compare::ExcludedRegion &excluded,
-               const mechanics::EnergyNorm   &whole,
-               MPI_Comm                       communicator);
+  norm_outside(estimate::Comparison &comparison, const mechanics::EnergyNorm &whole);
 } // namespace tetradapt::adapt
 
 #endif

@@ -160,7 +160,8 @@ namespace tetradapt::adapt
   struct CycleEvent
   {
     const CycleRecord            &record;
-    const mesh::NodalField       &displacement;
+    const mesh::TetMesh          &mesh;
+    const mesh::NodalField       *displacement; ///< null where the scene writes none
     const mechanics::MaterialMap &materials;
     const std::vector<double>    *indicators; ///< eta_K that drives, or null
     const std::vector<double>    *nodal_ren;  ///< one a node, or null

@@ -17,7 +17,6 @@ namespace tetradapt::adapt
   describe_solution(const solve::StaticSystem    &system,
                     const solve::StaticSolution  &solution,
                     const mechanics::MaterialMap &materials,
-                    MPI_Comm                      communicator,
                     CycleRecord                  &record);
 } // namespace tetradapt::adapt
 

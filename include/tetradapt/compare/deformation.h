@@ -2,9 +2,7 @@
 #ifndef tetradapt_compare_deformation_h
 #define tetradapt_compare_deformation_h
 
-#include "tetradapt/mesh/nodal_field.h"
-
-#include <mpi.h>
+#include "tetradapt/fem/field.h"
 
 #include <vector>
 
@@ -29,7 +27,7 @@ namespace tetradapt::compare
 
   /** Collective. */
   Deformation
-  deformation(const mesh::NodalField &u_h, MPI_Comm communicator);
+  deformation(const fem::Field &u_h);
 
   /** How much of a body bends, as far as some of its cells are concerned. */
   struct Bending
@@ -44,7 +42,7 @@ namespace tetradapt::compare
 
   /** @param cells one entry a cell. Collective. */
   Bending
-  bending(const mesh::NodalField &u_h, const std::vector<bool> &cells, MPI_Comm communicator);
+  bending(const fem::Field &u_h, const std::vector<bool> &cells);
 } // namespace tetradapt::compare
 
 #endif

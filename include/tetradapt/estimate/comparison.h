@@ -5,6 +5,7 @@
 #include "tetradapt/compare/difference.h"
 #include "tetradapt/compare/excluded_region.h"
 #include "tetradapt/compare/reference_sampling.h"
+#include "tetradapt/fem/field.h"
 
 #include <memory>
 #include <optional>
@@ -17,7 +18,8 @@ namespace tetradapt::estimate
    * share what both need, and what neither needs is never computed.
    *
    * Whatever may compute is collective over the communicator, so every rank must
-   * ask for the same things in the same order.
+   * ask for the same things in the same order. Comparisons work on displacements that every
+   * rank holds whole: the copy is made when the first of them asks for it.
    */
   class Comparison
   {
@@ -28,7 +30,7 @@ namespace tetradapt::estimate
      * @param sampling of the reference, made once a run; null if there is none.
      * @param excluded what every comparison leaves out, the same as in @p sampling.
      */
-    Comparison(std::shared_ptr<const mesh::NodalField>           displacement,
+    Comparison(std::shared_ptr<const fem::Field>                 displacement,
                const mechanics::MaterialMap                     &materials,
                const scene::ExactSolutionParameters             &exact_solution,
                std::shared_ptr<const compare::ReferenceSampling> sampling,
@@ -45,10 +47,25 @@ namespace tetradapt::estimate
     {
       return exact_solution.has_displacement();
     }
+    /** The displacement on every rank. */
     const mesh::NodalField &
-    displacement() const
+    displacement();
+
+    const mesh::TetMesh &
+    mesh() const
     {
-      return *u_h;
+      return *body;
+    }
+    const std::shared_ptr<const mesh::TetMesh> &
+    shared_mesh() const
+    {
+      return body;
+    }
+    /** Of the displacement's nodes; null for degree 1. */
+    const mesh::EdgeTable *
+    edges() const
+    {
+      return edge_table.get();
     }
     const mechanics::MaterialMap &
     material_map() const
@@ -90,11 +107,19 @@ namespace tetradapt::estimate
     const compare::PointLocator &
     locator();
 
+    /** Gives up all but displacement(), to save memory; what is asked for later is made again. No
+     * longer shares the distributed displacement with its space. */
+    void
+    reduce_to_displacement();
+
   private:
     void
     require_reference() const;
 
-    std::shared_ptr<const mesh::NodalField>           u_h;
+    std::shared_ptr<const fem::Field>                 distributed; ///< null once it is given up
+    std::shared_ptr<const mesh::NodalField>           replicated;  ///< null: not asked for yet
+    std::shared_ptr<const mesh::TetMesh>              body;
+    std::shared_ptr<const mesh::EdgeTable>            edge_table;
     const mechanics::MaterialMap                     &materials;
     const scene::ExactSolutionParameters             &exact_solution;
     std::shared_ptr<const compare::ReferenceSampling> sampling;

@@ -6,6 +6,8 @@
 
 #include <mpi.h>
 
+#include <memory>
+
 namespace tetradapt::fem
 {
   /**
@@ -20,8 +22,8 @@ namespace tetradapt::fem
   class Partition
   {
   public:
-    /** Every rank passes the same mesh, which must outlive this object. */
-    Partition(const mesh::TetMesh &mesh, MPI_Comm communicator);
+    /** Every rank passes the same mesh, which is shared. */
+    Partition(std::shared_ptr<const mesh::TetMesh> mesh, MPI_Comm communicator);
 
     MPI_Comm
     communicator() const
@@ -35,6 +37,11 @@ namespace tetradapt::fem
     }
     const mesh::TetMesh &
     mesh() const
+    {
+      return *tet_mesh;
+    }
+    const std::shared_ptr<const mesh::TetMesh> &
+    shared_mesh() const
     {
       return tet_mesh;
     }
@@ -53,10 +60,10 @@ namespace tetradapt::fem
     }
 
   private:
-    const mesh::TetMesh      &tet_mesh;
-    MPI_Comm                  mpi_communicator;
-    unsigned int              rank_count;
-    std::vector<unsigned int> cell_order, firsts;
+    std::shared_ptr<const mesh::TetMesh> tet_mesh;
+    MPI_Comm                             mpi_communicator;
+    unsigned int                         rank_count;
+    std::vector<unsigned int>            cell_order, firsts;
   };
 } // namespace tetradapt::fem
 

@@ -40,18 +40,20 @@ namespace tetradapt::fem
   {
   public:
     /**
-     * Collective. @p edges is needed for degree 2; it and the triangulation must outlive this
-     * object.
+     * Collective. Shares the triangulation, and with it the mesh. @p edges of the mesh are shared
+     * for degree 2, or made if null.
      * @throws dealii::ExcNotImplemented for another degree.
      * @throws core::NumericalError for more unknowns than can be numbered.
      */
-    Space(const Triangulation &triangulation, unsigned int degree, const mesh::EdgeTable *edges);
+    Space(std::shared_ptr<const Triangulation>   triangulation,
+          unsigned int                           degree,
+          std::shared_ptr<const mesh::EdgeTable> edges = nullptr);
 
     /**
      * The displacements of degree 1 on the triangulation of @p quadratic, which are a subspace
      * of that: for multigrid. Numbered by those of its nodes that are vertices, in their order,
      * which are the numbers that a DoFHandler would give, without the time that one takes.
-     * Collective. Keeps no reference to @p quadratic.
+     * Collective. Shares the triangulation, but not @p quadratic.
      */
     static std::unique_ptr<Space>
     linear_part(const Space &quadratic);
@@ -69,6 +71,11 @@ namespace tetradapt::fem
     }
     const Triangulation &
     triangulation() const
+    {
+      return *body;
+    }
+    const std::shared_ptr<const Triangulation> &
+    shared_triangulation() const
     {
       return body;
     }
@@ -120,6 +127,13 @@ namespace tetradapt::fem
     {
       return cells;
     }
+    /** Whether the k-th of touching_cells() is this rank's own: each cell is that of one rank,
+     * which knows all of its nodes. Sums over the body take these. */
+    bool
+    is_own_cell(const unsigned int k) const
+    {
+      return !is_ghost[k];
+    }
     /** The local nodes of the k-th of touching_cells(), n_nodes_per_cell() of them: vertices,
      * then edges in deal.II's order. */
     const unsigned int *
@@ -144,11 +158,22 @@ namespace tetradapt::fem
     {
       return mesh;
     }
+    const std::shared_ptr<const mesh::TetMesh> &
+    shared_mesh() const;
+    /** Null for degree 1 if none was given. */
     const mesh::EdgeTable *
     edge_table() const
     {
+      return edges.get();
+    }
+    const std::shared_ptr<const mesh::EdgeTable> &
+    shared_edges() const
+    {
       return edges;
     }
+    /** Rest position of a local node. */
+    dealii::Point<3>
+    node_position(unsigned int local_node) const;
     MPI_Comm
     communicator() const
     {
@@ -161,13 +186,11 @@ namespace tetradapt::fem
       return partitioner;
     }
 
-    /** Puts the owned values of @p vector in @p field, on every rank. Collective. */
-    void
-    gather(const Vector &vector, std::vector<dealii::Tensor<1, 3>> &field) const;
-
   private:
     /** Without any cells and numbers. */
-    Space(const Triangulation &triangulation, const mesh::EdgeTable *edges, unsigned int degree);
+    Space(std::shared_ptr<const Triangulation>   triangulation,
+          std::shared_ptr<const mesh::EdgeTable> edges,
+          unsigned int                           degree);
     /** Fills cells, and their nodes' numbers on all ranks in @p nodes. */
     void
     list_cells(std::vector<dealii::types::global_dof_index> &nodes);
@@ -179,10 +202,10 @@ namespace tetradapt::fem
     number_locally(const dealii::IndexSet                             &owned,
                    const std::vector<dealii::types::global_dof_index> &nodes);
 
-    const Triangulation                                       &body;
+    std::shared_ptr<const Triangulation>                       body;
     const mesh::TetMesh                                       &mesh;
     MPI_Comm                                                   mpi_communicator;
-    const mesh::EdgeTable                                     *edges;
+    std::shared_ptr<const mesh::EdgeTable>                     edges;
     unsigned int                                               polynomial_degree;
     std::unique_ptr<dealii::DoFHandler<3, 3>>                  handler;
     unsigned int                                               n_owned = 0;

@@ -26,8 +26,8 @@ namespace tetradapt::fem
   class Triangulation : public dealii::parallel::DistributedTriangulationBase<3>
   {
   public:
-    /** Collective. Every rank passes the same mesh, which must outlive this object. */
-    Triangulation(const mesh::TetMesh &mesh, MPI_Comm communicator);
+    /** Collective. Every rank passes the same mesh, which is shared. */
+    Triangulation(std::shared_ptr<const mesh::TetMesh> mesh, MPI_Comm communicator);
 
     const Partition &
     partition() const
@@ -38,6 +38,11 @@ namespace tetradapt::fem
     tet_mesh() const
     {
       return cell_partition.mesh();
+    }
+    const std::shared_ptr<const mesh::TetMesh> &
+    shared_mesh() const
+    {
+      return cell_partition.shared_mesh();
     }
     /** The number in the mesh of the cell with this index(). */
     unsigned int

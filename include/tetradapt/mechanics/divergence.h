@@ -3,10 +3,13 @@
 #define tetradapt_mechanics_divergence_h
 
 #include "tetradapt/fem/fixed_unknowns.h"
-#include "tetradapt/mechanics/pressure_space.h"
+#include "tetradapt/fem/pressure_space.h"
 
 namespace tetradapt::mechanics
 {
+  using fem::PressureSpace;
+  using fem::Vector;
+
   /**
    * The form -int q div u of pressures q of degree 1 and displacements u of degree 2, in both
    * directions, without a matrix: the divergence is linear in a cell and computed at its

@@ -2,7 +2,7 @@
 #ifndef tetradapt_mechanics_loads_h
 #define tetradapt_mechanics_loads_h
 
-#include "tetradapt/fem/space.h"
+#include "tetradapt/fem/field.h"
 #include "tetradapt/mechanics/material_map.h"
 #include "tetradapt/mechanics/resultant.h"
 
@@ -33,9 +33,8 @@ namespace tetradapt::mechanics
   /** The loads of a scene on the nodes of a mesh. */
   struct NodalLoads
   {
-    /** One a field node, complete on the nodes that this rank owns. */
-    std::vector<dealii::Tensor<1, 3>> forces;
-    std::vector<LoadTotal>            totals; ///< one a load of the scene, the same on every rank
+    fem::Vector            forces; ///< on the nodes
+    std::vector<LoadTotal> totals; ///< one a load of the scene, the same on every rank
   };
 
   /**
@@ -51,16 +50,16 @@ namespace tetradapt::mechanics
    * of these points, so that another mesh is another problem, whose energies cannot be
    * compared.
    *
-   * @param deformation of the body, at whose deformed positions the forces act: for their moments.
-   *        Null: those at rest.
+   * @param deformation of the body, a field of @p space, at whose deformed positions the forces
+   * act: for their moments. Null: those at rest.
    *
    * Collective.
    */
   NodalLoads
-  assemble_loads(const scene::Scene     &scene,
-                 const MaterialMap      &materials,
-                 const fem::Space       &space,
-                 const mesh::NodalField *deformation = nullptr);
+  assemble_loads(const scene::Scene &scene,
+                 const MaterialMap  &materials,
+                 const fem::Space   &space,
+                 const fem::Field   *deformation = nullptr);
 } // namespace tetradapt::mechanics
 
 #endif

@@ -65,7 +65,7 @@ namespace tetradapt::mechanics
      * prescribed displacement where unknowns are free, else the diagonal entry times the
      * prescribed value. No communication. */
     VectorOf<Number>
-    right_hand_side(const std::vector<dealii::Tensor<1, 3>> &forces) const;
+    right_hand_side(const Vector &forces) const;
 
   private:
     void

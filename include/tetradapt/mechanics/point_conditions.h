@@ -6,12 +6,9 @@
 
 namespace tetradapt::mechanics
 {
-  /** Adds the force of a point load to the node at its point; with degree 2, too, all of it
-   * acts on that vertex. @param forces one a field node, vertices first. */
-  void
-  add_point_force(const scene::LoadParameters       &load,
-                  const mesh::TetMesh               &mesh,
-                  std::vector<dealii::Tensor<1, 3>> &forces);
+  /** The vertex of the mesh that a point load acts on, with degree 2, too, and its force. */
+  std::pair<unsigned int, dealii::Tensor<1, 3>>
+  point_force(const scene::LoadParameters &load, const mesh::TetMesh &mesh);
 
   /** The field nodes that a support at a point or on a line holds: vertices, and for degree 2 the
    * middles of the edges between them. @param edges is null for degree 1. */

@@ -2,11 +2,14 @@
 #ifndef tetradapt_mechanics_pressure_mass_h
 #define tetradapt_mechanics_pressure_mass_h
 
+#include "tetradapt/fem/pressure_space.h"
 #include "tetradapt/mechanics/material_map.h"
-#include "tetradapt/mechanics/pressure_space.h"
 
 namespace tetradapt::mechanics
 {
+  using fem::PressureSpace;
+  using fem::Vector;
+
   /**
    * The mass matrix of the pressures, int q p, whose rows belong to one region each, and what
    * materials weight it with.

@@ -2,7 +2,7 @@
 #ifndef tetradapt_mechanics_reactions_h
 #define tetradapt_mechanics_reactions_h
 
-#include "tetradapt/fem/space.h"
+#include "tetradapt/fem/field.h"
 #include "tetradapt/mechanics/material_map.h"
 #include "tetradapt/mechanics/resultant.h"
 #include "tetradapt/mechanics/supports.h"
@@ -39,22 +39,22 @@ namespace tetradapt::mechanics
    * are coupled to a reference point count whole: their sum is along its prescribed components, as
    * far as the equations are solved.
    *
-   * @param forces F, one a field node, complete on the nodes that this rank owns.
-   * @param internal_forces int P : grad N of laws that are not linear, likewise: then moments are
+   * @param forces F.
+   * @param internal_forces int P : grad N of laws that are not linear: then moments are
    *        those about the deformed positions, where forces act. Null for linear laws, whose
    *        stress at supports is computed here.
+   * @param displacement in the space, with its pressure in mixed form.
    * @param with_layer_energy whether that is wanted.
    * Collective; the same on every rank.
    */
   Reactions
-  compute_reactions(const fem::Space                        &space,
-                    const MaterialMap                       &materials,
-                    const PrescribedDisplacement            &prescribed,
-                    const std::vector<dealii::Tensor<1, 3>> &forces,
-                    const std::vector<dealii::Tensor<1, 3>> *internal_forces,
-                    const mesh::NodalField                  &displacement,
-                    unsigned int                             n_supports,
-                    bool                                     with_layer_energy);
+  compute_reactions(const MaterialMap            &materials,
+                    const PrescribedDisplacement &prescribed,
+                    const fem::Vector            &forces,
+                    const fem::Vector            *internal_forces,
+                    const fem::Field             &displacement,
+                    unsigned int                  n_supports,
+                    bool                          with_layer_energy);
 } // namespace tetradapt::mechanics
 
 #endif

@@ -2,10 +2,8 @@
 #ifndef tetradapt_mechanics_region_figures_h
 #define tetradapt_mechanics_region_figures_h
 
+#include "tetradapt/fem/field.h"
 #include "tetradapt/mechanics/material_map.h"
-#include "tetradapt/mesh/nodal_field.h"
-
-#include <mpi.h>
 
 namespace tetradapt::mechanics
 {
@@ -33,13 +31,10 @@ namespace tetradapt::mechanics
   /**
    * The figures of all regions of @p displacement's mesh, by region number. Where several places
    * have the largest value but for a millionth, as in symmetric bodies, the place is the one of
-   * smallest x, then y, then z. Collective: the cells are shared out over the ranks; the same
-   * on every rank.
+   * smallest x, then y, then z. Collective; the same on every rank.
    */
   std::vector<RegionFigures>
-  compute_region_figures(const mesh::NodalField &displacement,
-                         const MaterialMap      &materials,
-                         MPI_Comm                communicator);
+  compute_region_figures(const fem::Field &displacement, const MaterialMap &materials);
 } // namespace tetradapt::mechanics
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef tetradapt_mechanics_rigid_coupling_h
 #define tetradapt_mechanics_rigid_coupling_h
 
-#include "tetradapt/fem/space.h"
+#include "tetradapt/fem/field.h"
 #include "tetradapt/mechanics/linear_operator.h"
 
 #include <deal.II/base/point.h>
@@ -48,9 +48,9 @@ namespace tetradapt::mechanics
     std::vector<Tensor<1, 3>>
     nodal_forces(const Tensor<1, 3> &force, const Tensor<1, 3> &moment) const;
 
-    /** The motion that the nodes have in a @p field that is rigid there. */
+    /** The motion that the nodes have in a @p field that is rigid there. Collective. */
     RigidMotion
-    motion_of(const std::vector<Tensor<1, 3>> &field) const;
+    motion_of(const fem::Field &field) const;
   };
 
   /**

@@ -2,8 +2,8 @@
 #ifndef tetradapt_mechanics_springs_h
 #define tetradapt_mechanics_springs_h
 
+#include "tetradapt/fem/field.h"
 #include "tetradapt/mechanics/resultant.h"
-#include "tetradapt/mesh/nodal_field.h"
 #include "tetradapt/scene/scene.h"
 
 #include <deal.II/base/symmetric_tensor.h>
@@ -144,15 +144,15 @@ namespace tetradapt::mechanics
   struct SpringForces
   {
     std::vector<Resultant> supports; ///< one a support of the scene, zero where it has no springs
-    /** int N_i t, one a node of the field; the same on every rank. */
-    std::vector<dealii::Tensor<1, 3>> nodal;
-    double                            magnitude = 0.; ///< sum of the lengths of these
-    double                            energy    = 0.; ///< 1/2 int (u - u0) . K (u - u0)
+    fem::Vector            nodal;    ///< int N_i t on the nodes; of no size if there are no springs
+    double                 magnitude = 0.; ///< sum of the lengths of these
+    double                 energy    = 0.; ///< 1/2 int (u - u0) . K (u - u0)
   };
 
-  /** The forces of @p springs at @p displacement, on the same mesh. Every rank computes all. */
+  /** The forces of @p springs at @p displacement, on the same mesh. Collective: each rank takes
+   * the faces that have a node of its own. What is not nodal is the same on every rank. */
   SpringForces
-  spring_forces(const Springs &springs, const mesh::NodalField &displacement);
+  spring_forces(const Springs &springs, const fem::Field &displacement);
 
   /** What to tell the user about the springs of a scene on a mesh: where they act along the
    * normals of flat faces that stand for a curved surface; and where they are so stiff or so

@@ -42,10 +42,10 @@ namespace tetradapt::mechanics
    * these less those of the prescribed displacement where unknowns are free, else the
    * diagonal entry times the prescribed value. */
   Vector
-  right_hand_side(const LinearSystem                      &system,
-                  const fem::Space                        &space,
-                  const fem::FixedUnknowns                &fixed,
-                  const std::vector<dealii::Tensor<1, 3>> &forces);
+  right_hand_side(const LinearSystem       &system,
+                  const fem::Space         &space,
+                  const fem::FixedUnknowns &fixed,
+                  const Vector             &forces);
 } // namespace tetradapt::mechanics
 
 #endif

@@ -26,7 +26,7 @@ namespace tetradapt::mechanics
     SymmetricTensor<2, 3> normals;
   };
 
-  /** The displacement components that the supports prescribe, a node each. */
+  /** The displacement components that the supports prescribe, by field node, on every rank. */
   struct PrescribedDisplacement
   {
     /** Of fixed: the node is one of inclined, or it moves with a reference point (see rigid). */
@@ -98,12 +98,13 @@ namespace tetradapt::mechanics
   std::pair<dealii::Tensor<1, 3>, dealii::Tensor<1, 3>>
   reference_forces(const scene::SupportParameters &support);
 
-  /** Adds what forces and moments at reference points do to the nodes of these, one entry a node of
-   * the field. */
+  /** Adds what forces and moments at reference points do to the nodes of these, as far as this
+   * rank owns them. */
   void
   add_rigid_forces(const std::vector<scene::SupportParameters> &supports,
                    const PrescribedDisplacement                &prescribed,
-                   std::vector<dealii::Tensor<1, 3>>           &forces);
+                   const fem::Space                            &space,
+                   fem::Vector                                 &forces);
 } // namespace tetradapt::mechanics
 
 #endif

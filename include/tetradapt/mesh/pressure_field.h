@@ -54,6 +54,8 @@ namespace tetradapt::mesh
   {
     /** Zero everywhere on @p mesh. */
     explicit PressureField(const TetMesh &mesh);
+    /** Zero at all of @p nodes, which are shared. */
+    explicit PressureField(std::shared_ptr<const PressureNodes> nodes);
 
     /** Value at a point of @p cell, given in barycentric coordinates. */
     double

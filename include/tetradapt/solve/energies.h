@@ -2,9 +2,9 @@
 #ifndef tetradapt_solve_energies_h
 #define tetradapt_solve_energies_h
 
+#include "tetradapt/fem/field.h"
 #include "tetradapt/mechanics/material_map.h"
 #include "tetradapt/mesh/hexahedral_field.h"
-#include "tetradapt/mesh/nodal_field.h"
 
 #include <mpi.h>
 
@@ -19,14 +19,12 @@ namespace tetradapt::solve
     double scale = 0.;
   };
 
-  /** Energies of a displacement; exact for a constant temperature. Collective:
-   * the cells are shared out over the ranks. */
+  /** Energies of a displacement; exact for a constant temperature. Collective. */
   Energies
-  compute_energies(const mesh::NodalField       &displacement,
-                   const mechanics::MaterialMap &materials,
-                   MPI_Comm                      communicator);
+  compute_energies(const fem::Field &displacement, const mechanics::MaterialMap &materials);
 
-  /** The same on hexahedra, in displacement form. Collective. */
+  /** The same on hexahedra, in displacement form. Collective: the cells are shared out over the
+   * ranks. */
   Energies
   compute_energies(const mesh::HexahedralField  &displacement,
                    const mechanics::MaterialMap &materials,

@@ -2,7 +2,7 @@
 #ifndef tetradapt_solve_equilibrium_h
 #define tetradapt_solve_equilibrium_h
 
-#include "tetradapt/fem/space.h"
+#include "tetradapt/fem/field.h"
 #include "tetradapt/mechanics/extent.h"
 #include "tetradapt/mechanics/resultant.h"
 #include "tetradapt/mechanics/springs.h"
@@ -75,10 +75,9 @@ namespace tetradapt::solve
     const mechanics::MaterialMap            &materials;
     const mechanics::PrescribedDisplacement &prescribed;
     const mechanics::Springs                &springs;
-    /** Of all loads, one a field node, complete on the nodes that this rank owns. */
-    const std::vector<dealii::Tensor<1, 3>> &forces;
+    const fem::Vector                       &forces; ///< of all loads
     /** Of laws that are not linear; see mechanics::compute_reactions(). */
-    const std::vector<dealii::Tensor<1, 3>> *internal_forces;
+    const fem::Vector *internal_forces;
     /** Of each load of the scene, the same on every rank. */
     const std::vector<mechanics::Resultant> &loads;
   };

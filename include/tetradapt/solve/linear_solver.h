@@ -68,7 +68,7 @@ namespace tetradapt::solve
      * prescribed displacement where unknowns are free; elsewhere a diagonal entry of the
      * matrix times the prescribed value. Collective if there are couplings. */
     Vector
-    right_hand_side(const std::vector<dealii::Tensor<1, 3>> &forces) const;
+    right_hand_side(const Vector &forces) const;
 
     /**
      * Solves for @p x from @p x on, which has the prescribed values. Conjugate

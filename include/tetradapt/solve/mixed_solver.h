@@ -25,7 +25,7 @@ namespace tetradapt::solve
   /** What the mixed form is made of. */
   struct MixedModel
   {
-    const fem::Space                        &space; ///< of degree 2
+    std::shared_ptr<const fem::Space>        space; ///< of degree 2
     const mechanics::MaterialMap            &materials;
     const mechanics::PrescribedDisplacement &prescribed;
     const fem::FixedUnknowns                &fixed; ///< prescribed, in local numbers
@@ -56,26 +56,23 @@ namespace tetradapt::solve
                 const scene::SolverParameters &parameters,
                 const core::Log               &log);
 
-    const mechanics::PressureSpace &
+    const std::shared_ptr<const fem::PressureSpace> &
     space() const
     {
       return pressures;
     }
 
     /**
-     * Solves from @p u, which has the prescribed values, and from @p pressure on. Ends when the
-     * residual is below the tolerance times that of the load, or below @p stop.algebraic_error:
-     * both in the norm of the inverse of diag(A^, S^), which is equivalent to the energy norm of
-     * the error. A pressure that is determined up to a constant only gets the mean zero.
-     * Collective.
+     * Solves from @p u, which has the prescribed values, and from @p pressure, of space(), on. Ends
+     * when the residual is below the tolerance times that of the load, or below @p
+     * stop.algebraic_error: both in the norm of the inverse of diag(A^, S^), which is equivalent to
+     * the energy norm of the error. A pressure that is determined up to a constant only gets the
+     * mean zero. Collective.
      * @param forces the right-hand side of the displacements, see LinearSolver.
      * @throws core::NumericalError if it does not converge.
      */
     LinearResult
-    solve(const Vector        &forces,
-          const LinearStop    &stop,
-          Vector              &u,
-          mesh::PressureField &pressure) const;
+    solve(const Vector &forces, const LinearStop &stop, Vector &u, Vector &pressure) const;
 
   private:
     struct Iterate;
@@ -97,14 +94,14 @@ namespace tetradapt::solve
     void
     check_volume(const Vector &free_pressure);
 
-    MixedModel                     model;
-    const scene::SolverParameters &parameters;
-    const core::Log               &log;
-    mechanics::PressureSpace       pressures;
-    mechanics::Divergence          divergence;
-    mechanics::PressureMass        mass;
-    Vector                         volume_load; ///< g
-    std::vector<Vector>            free_pressures;
+    MixedModel                                model;
+    const scene::SolverParameters            &parameters;
+    const core::Log                          &log;
+    std::shared_ptr<const fem::PressureSpace> pressures;
+    mechanics::Divergence                     divergence;
+    mechanics::PressureMass                   mass;
+    Vector                                    volume_load; ///< g
+    std::vector<Vector>                       free_pressures;
   };
 } // namespace tetradapt::solve
 

@@ -16,9 +16,7 @@ namespace tetradapt::solve
     const fem::Space                        &space;
     const mechanics::MaterialMap            &materials;
     const mechanics::PrescribedDisplacement &prescribed;
-    /** Of the loads, one a field node, complete on the nodes that this rank owns; they keep
-     * their directions. */
-    const std::vector<dealii::Tensor<1, 3>> &forces;
+    const Vector                            &forces; ///< of the loads; they keep their directions
   };
 
   struct NonlinearResult
@@ -57,8 +55,8 @@ namespace tetradapt::solve
     NonlinearResult
     solve(Vector &x);
 
-    /** int P : grad N at @p x, one a field node, on the nodes that this rank owns. Collective. */
-    std::vector<dealii::Tensor<1, 3>>
+    /** int P : grad N at @p x. Collective. */
+    Vector
     internal_forces(const Vector &x) const;
 
   private:

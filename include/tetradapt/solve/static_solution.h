@@ -6,7 +6,6 @@
 #include "tetradapt/mechanics/energy_norm.h"
 #include "tetradapt/mechanics/loads.h"
 #include "tetradapt/mechanics/material_map.h"
-#include "tetradapt/mesh/nodal_field.h"
 #include "tetradapt/scene/scene.h"
 #include "tetradapt/solve/static_system.h"
 
@@ -16,13 +15,13 @@
 
 namespace tetradapt::solve
 {
-  /** A static equilibrium on one mesh. Every MPI rank holds all of it. What is said of energies
-   * holds for linear laws; of others, energy is 2 F(u_h) - 2 W(u_h) with the stored energy W, twice
-   * the negative potential, or 2 W where supports prescribe displacements, strain_energy is W,
-   * and norm is the root of 2 W. */
+  /** A static equilibrium on one mesh. Its figures are the same on every rank. What is said of
+   * energies holds for linear laws; of others, energy is 2 F(u_h) - 2 W(u_h) with the stored energy
+   * W, twice the negative potential, or 2 W where supports prescribe displacements, strain_energy
+   * is W, and norm is the root of 2 W. */
   struct StaticSolution
   {
-    std::shared_ptr<mesh::NodalField> displacement;
+    std::shared_ptr<const fem::Field> displacement;
     unsigned long                     n_dofs = 0; ///< 3 x nodes, supports included
     /** a(u_h,u_h) = int eps:C:eps, twice the strain energy without thermal strain, and twice
      * spring_energy. Where all prescribed displacements, and those of the ground, are zero it is
@@ -63,8 +62,6 @@ namespace tetradapt::solve
    * Solves the scene's static problem on @p mesh with degree @p degree. Collective
    * over @p communicator; every rank passes the same mesh.
    *
-   * @param start a displacement on another or the same mesh evaluated at this
-   *        mesh's nodes, used as the first iterate; may be null.
    * @throws InputError for supports and loads that make no sense on this mesh,
    *         NumericalError if the solver fails.
    */
@@ -74,8 +71,7 @@ namespace tetradapt::solve
                std::shared_ptr<const mesh::TetMesh> mesh,
                unsigned int                         degree,
                MPI_Comm                             communicator,
-               const core::Log                     &log,
-               const mesh::NodalField              *start = nullptr);
+               const core::Log                     &log);
 } // namespace tetradapt::solve
 
 #endif

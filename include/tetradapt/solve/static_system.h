@@ -3,9 +3,9 @@
 #define tetradapt_solve_static_system_h
 
 #include "tetradapt/core/log.h"
+#include "tetradapt/fem/field.h"
 #include "tetradapt/mechanics/material_map.h"
 #include "tetradapt/mechanics/supports.h"
-#include "tetradapt/mesh/nodal_field.h"
 #include "tetradapt/scene/scene.h"
 #include "tetradapt/solve/equilibrium.h"
 
@@ -51,26 +51,32 @@ namespace tetradapt::solve
     ~StaticSystem();
 
     /** The displacement under the scene's loads: of linear laws by one linear solve, of others
-     * by Newton's method, which @p stop does not concern. @param start first iterate, or null. */
+     * by Newton's method, which @p stop does not concern. @param start first iterate, in space()
+     * and, if it has a pressure, that in pressure_space(); or null. */
     StaticSolution
-    solve(const mesh::NodalField *start, const Stop &stop) const;
+    solve(const fem::Field *start, const Stop &stop) const;
 
-    /** The displacement under other nodal forces (one a node of the field, whole on
-     * every rank), zero at all supports; a dual solution. */
-    std::shared_ptr<mesh::NodalField>
-    solve_dual(const std::vector<dealii::Tensor<1, 3>> &forces, const Stop &stop) const;
+    /** The displacement under other nodal forces, zero at all supports; a dual solution. */
+    std::shared_ptr<const fem::Field>
+    solve_dual(const fem::Vector &forces, const Stop &stop) const;
 
     /** One step of what solves it: @p displacement = an approximate inverse of the
-     * matrix times @p forces, symmetric and positive, zero at supports. Both have one
-     * entry a node and are whole on every rank. Preconditions larger spaces. */
+     * matrix times @p forces, symmetric and positive, zero at supports. Preconditions larger
+     * spaces. */
     void
-    precondition(const std::vector<dealii::Tensor<1, 3>> &forces,
-                 std::vector<dealii::Tensor<1, 3>>       &displacement) const;
+    precondition(const fem::Vector &forces, fem::Vector &displacement) const;
 
-    /** The loads' forces on the nodes, whole on every rank; where supports hold a
-     * component also. Collective. */
-    std::vector<dealii::Tensor<1, 3>>
+    /** The loads' forces on the nodes; where supports hold a component also. */
+    const fem::Vector &
     nodal_forces() const;
+
+    /** The space of the displacement; all vectors have its layout. Solutions share it. */
+    const std::shared_ptr<const fem::Space> &
+    space() const;
+
+    /** The space of the pressure; null in displacement form. */
+    std::shared_ptr<const fem::PressureSpace>
+    pressure_space() const;
 
     /** The reactions and the loads of a @p solution of this system, and how they balance.
      * @param regions of the solution's mesh. Collective; the same on every rank. */

@@ -6,6 +6,7 @@
 #include "tetradapt/core/exceptions.h"
 #include "tetradapt/core/failure.h"
 #include "tetradapt/estimate/given_loads.h"
+#include "tetradapt/fem/replication.h"
 #include "tetradapt/solve/conjugate_gradients.h"
 
 #include <deal.II/base/quadrature_lib.h>
@@ -149,33 +150,35 @@ namespace tetradapt::estimate
       return blocks;
     }
 
-    const solve::StaticSolution &
-    checked(const solve::StaticSolution &solution)
+    const solve::StaticSystem &
+    system_of(const solve::StaticSolution &solution)
     {
       if (solution.system == nullptr)
         throw core::InputError("A solution in the space of the next degree is asked for, but the "
                                "system that was solved has not been kept.");
-      return solution;
+      return *solution.system;
     }
   } // namespace
 
-  EnrichedProblem::EnrichedProblem(const scene::Scene           &scene,
-                                   const mechanics::MaterialMap &materials,
-                                   const solve::StaticSolution  &solution,
-                                   MPI_Comm                      communicator)
-    : solution(checked(solution)), stopping(scene.solver.stopping),
-      springs(scene, solution.displacement->mesh()),
-      enriched_space(*solution.displacement, materials, communicator, &springs),
-      prescribed(prescribe_surplus(scene.supports, enriched_space.surplus(), scene.mesh))
+  EnrichedProblem::EnrichedProblem(const EstimateInput &input)
+    : system(system_of(input.solution)), displacement(input.comparison.displacement()),
+      stopping(input.scene.solver.stopping), springs(input.scene, displacement.mesh()),
+      enriched_space(displacement,
+                     input.comparison.material_map(),
+                     input.comparison.mpi_communicator(),
+                     &springs),
+      prescribed(
+        prescribe_surplus(input.scene.supports, enriched_space.surplus(), input.scene.mesh))
   {
+    const MPI_Comm     communicator = input.comparison.mpi_communicator();
     Values             extra(enriched_space.size());
-    const SurplusLoads surplus_loads(scene, materials, enriched_space);
+    const SurplusLoads surplus_loads(input.scene, input.comparison.material_map(), enriched_space);
     core::together(communicator, [&] {
       surplus_loads.add_faces(extra);
       surplus_loads.add_cells(extra);
     });
     compare::sum_over_ranks(extra.data(), extra.size(), communicator);
-    loads = enriched_space.embed(solution.system->nodal_forces());
+    loads = enriched_space.embed(fem::replicate(*system.space(), system.nodal_forces()));
     loads += extra;
     loads += enriched_space.ground_forces();
   }
@@ -183,7 +186,7 @@ namespace tetradapt::estimate
   Values
   EnrichedProblem::supported_solution() const
   {
-    Values             u     = enriched_space.embed(solution.displacement->values);
+    Values             u     = enriched_space.embed(displacement.values);
     const unsigned int first = enriched_space.n_nodes();
     for (unsigned int i = 0; i < enriched_space.surplus().n_functions(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
@@ -211,7 +214,7 @@ namespace tetradapt::estimate
                 forces[3 * (first + node) + c] = force[c];
             }
         };
-    clear(solution.system->prescribed(), 0);
+    clear(system.prescribed(), 0);
     clear(prescribed, enriched_space.n_nodes());
   }
 
@@ -233,7 +236,9 @@ namespace tetradapt::estimate
     for (std::size_t i = 0; i < n_nodes; ++i)
       for (unsigned int c = 0; c < 3; ++c)
         nodal_residual[i][c] = residual[3 * i + c];
-    solution.system->precondition(nodal_residual, nodal_result);
+    fem::Vector nodal_part;
+    system.precondition(fem::distribute(*system.space(), nodal_residual), nodal_part);
+    const std::vector<Tensor<1, 3>> nodal_result = fem::replicate(*system.space(), nodal_part);
     result.reinit(residual, true);
     for (std::size_t i = 0; i < n_nodes; ++i)
       for (unsigned int c = 0; c < 3; ++c)

@@ -3,6 +3,7 @@
 
 #include "bound.h"
 
+#include "tetradapt/fem/replication.h"
 #include "tetradapt/solve/energies.h"
 
 #include <algorithm>
@@ -17,8 +18,8 @@ namespace tetradapt::estimate
 
     struct Quadratic
     {
-      std::shared_ptr<mesh::NodalField> solution;
-      double                            distance = 0.; ///< energy norm, to the linear solution
+      std::shared_ptr<const mesh::NodalField> solution;
+      double distance = 0.; ///< energy norm, to the linear solution
     };
 
     /** Solves with degree 2 on the mesh of a solution of degree 1. */
@@ -41,14 +42,14 @@ namespace tetradapt::estimate
         start.values[n_points + e]
           = 0.5 * (linear.values[edges[e][0]] + linear.values[edges[e][1]]);
       Quadratic result;
-      result.solution = system.solve(&start, {}).displacement;
+      result.solution = fem::replicate(
+        *system.solve(fem::distribute(start, system.space()).get(), {}).displacement);
       for (unsigned int i = 0; i < start.n_nodes(); ++i)
         start.values[i] -= result.solution->values[i];
       result.distance
         = std::sqrt(std::max(0.,
-                             solve::compute_energies(start,
-                                                     input.comparison.material_map(),
-                                                     input.comparison.mpi_communicator())
+                             solve::compute_energies(*fem::distribute(start, system.space()),
+                                                     input.comparison.material_map())
                                .energy));
       return result;
     }

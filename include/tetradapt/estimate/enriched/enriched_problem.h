@@ -3,8 +3,7 @@
 #define tetradapt_estimate_enriched_enriched_problem_h
 
 #include "tetradapt/estimate/enriched/space.h"
-#include "tetradapt/scene/scene.h"
-#include "tetradapt/solve/static_solution.h"
+#include "tetradapt/estimate/estimator.h"
 
 namespace tetradapt::estimate
 {
@@ -23,12 +22,9 @@ namespace tetradapt::estimate
   public:
     using Values = EnrichedSpace::Values;
 
-    /** Keeps a reference to @p solution, which must have its system.
-     * @throws core::InputError if it has none. Collective. */
-    EnrichedProblem(const scene::Scene           &scene,
-                    const mechanics::MaterialMap &materials,
-                    const solve::StaticSolution  &solution,
-                    MPI_Comm                      communicator);
+    /** Keeps references to the solution of @p input, which must have its system, and to its
+     * displacement. @throws core::InputError if it has no system. Collective. */
+    explicit EnrichedProblem(const EstimateInput &input);
 
     const EnrichedSpace &
     space() const
@@ -72,14 +68,15 @@ namespace tetradapt::estimate
     void
     precondition(const Values &residual, Values &result) const;
 
-    const solve::StaticSolution      &solution;
+    const solve::StaticSystem        &system;
+    const mesh::NodalField           &displacement;
     scene::SolverParameters::Stopping stopping;
     mechanics::Springs                springs;
     EnrichedSpace                     enriched_space;
     mechanics::PrescribedDisplacement prescribed;     ///< of the surplus
     Values                            loads;          ///< F(phi_i)
     mutable std::vector<double>       block_inverses; ///< made when they are first asked for
-    mutable std::vector<Tensor<1, 3>> nodal_residual, nodal_result; ///< work space
+    mutable std::vector<Tensor<1, 3>> nodal_residual; ///< work space
   };
 } // namespace tetradapt::estimate
 

@@ -1,29 +1,28 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#ifndef tetradapt_mechanics_pressure_space_h
-#define tetradapt_mechanics_pressure_space_h
+#ifndef tetradapt_fem_pressure_space_h
+#define tetradapt_fem_pressure_space_h
 
 #include "tetradapt/fem/space.h"
 
-namespace tetradapt::mechanics
+namespace tetradapt::fem
 {
-  using fem::Vector;
   /**
    * The pressures of degree 1 that belong to displacements of degree 2 (Taylor and Hood), and the
    * numbering of their nodes over the ranks. A node belongs to the rank that owns the
-   * displacement at its vertex. As in fem::Space, local nodes are first those that the
+   * displacement at its vertex. As in Space, local nodes are first those that the
    * rank owns, then ghosts.
    */
   class PressureSpace
   {
   public:
-    /** Collective. @p displacements must have degree 2 and outlive this object. */
-    PressureSpace(const fem::Space                          &displacements,
+    /** Collective. @p displacements, which must have degree 2, are shared. */
+    PressureSpace(std::shared_ptr<const Space>               displacements,
                   std::shared_ptr<const mesh::PressureNodes> nodes);
 
-    const fem::Space &
+    const Space &
     displacements() const
     {
-      return displacement_space;
+      return *displacement_space;
     }
     unsigned int
     n_owned_nodes() const
@@ -64,16 +63,12 @@ namespace tetradapt::mechanics
       return layout;
     }
 
-    /** Puts the owned values of @p vector in @p values, on every rank. Collective. */
-    void
-    gather(const Vector &vector, std::vector<double> &values) const;
-
   private:
-    const fem::Space                                          &displacement_space;
+    std::shared_ptr<const Space>                               displacement_space;
     std::shared_ptr<const mesh::PressureNodes>                 pressure_nodes;
     std::vector<unsigned int>                                  field_nodes, local_nodes;
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
   };
-} // namespace tetradapt::mechanics
+} // namespace tetradapt::fem
 
 #endif

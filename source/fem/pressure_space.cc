@@ -1,33 +1,35 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
-#include "tetradapt/mechanics/pressure_space.h"
+#include "tetradapt/fem/pressure_space.h"
 
 #include <deal.II/base/mpi.h>
 
-namespace tetradapt::mechanics
+#include <algorithm>
+
+namespace tetradapt::fem
 {
   using dealii::numbers::invalid_unsigned_int;
 
-  PressureSpace::PressureSpace(const fem::Space                          &displacements,
+  PressureSpace::PressureSpace(std::shared_ptr<const Space>               displacements,
                                std::shared_ptr<const mesh::PressureNodes> nodes)
-    : displacement_space(displacements), pressure_nodes(std::move(nodes)),
+    : displacement_space(std::move(displacements)), pressure_nodes(std::move(nodes)),
       local_nodes(pressure_nodes->size(), invalid_unsigned_int)
   {
     // Nodes in the order in which cells meet them, which lie in the order of space.
     std::vector<unsigned int> owned, ghosts;
     std::vector<char>         met(pressure_nodes->size(), 0);
-    for (const unsigned int cell : displacements.touching_cells())
+    for (const unsigned int cell : displacement_space->touching_cells())
       for (unsigned int i = 0; i < 4; ++i)
         {
           const unsigned int node = pressure_nodes->node(cell, i);
           if (met[node] != 0)
             continue;
           met[node]            = 1;
-          const bool is_my_own = displacements.local_node(pressure_nodes->vertex(node))
-                                 < displacements.n_owned_nodes();
+          const bool is_my_own = displacement_space->local_node(pressure_nodes->vertex(node))
+                                 < displacement_space->n_owned_nodes();
           (is_my_own ? owned : ghosts).push_back(node);
         }
 
-    const MPI_Comm communicator = displacements.communicator();
+    const MPI_Comm communicator = displacement_space->communicator();
     unsigned long  n_mine = owned.size(), begin = 0;
     MPI_Exscan(&n_mine, &begin, 1, MPI_UNSIGNED_LONG, MPI_SUM, communicator);
     if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
@@ -59,19 +61,4 @@ namespace tetradapt::mechanics
           field_nodes[local_nodes[node]] = node;
         }
   }
-
-  void
-  PressureSpace::gather(const Vector &vector, std::vector<double> &values) const
-  {
-    values.assign(pressure_nodes->size(), 0.);
-    for (unsigned int node = 0; node < n_owned_nodes(); ++node)
-      values[field_nodes[node]] = vector.local_element(node);
-    if (layout->n_mpi_processes() > 1)
-      MPI_Allreduce(MPI_IN_PLACE,
-                    values.data(),
-                    values.size(),
-                    MPI_DOUBLE,
-                    MPI_SUM,
-                    displacement_space.communicator());
-  }
-} // namespace tetradapt::mechanics
+} // namespace tetradapt::fem
