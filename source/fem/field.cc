@@ -17,6 +17,7 @@ namespace tetradapt::fem
   Field::Field(std::shared_ptr<const Space> space)
     : field_space(std::move(space)), values(field_space->vector_layout())
   {
+    values.set_ghost_state(true); // they are zero also
   }
 
   Field::Field(std::shared_ptr<const Space>    space,
